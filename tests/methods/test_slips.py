@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from math import cos, pi, radians, sin, sqrt
+from math import cos, exp, pi, radians, sin, sqrt
 from typing import Any
 
 import numpy as np
 import pytest
 
 from dalembert.grading.explanation import explain
-from dalembert.grading.figure import figure_of_key
+from dalembert.grading.figure import StudentValue, figure_of_key
 from dalembert.grading.file_answers import computed_text
 from dalembert.grading.quantities import Series
 from dalembert.grading.tolerance import Closeness, Target
 from dalembert.grading.value_errors import of_units, of_value
+from dalembert.grading.value_slips import alike, coincidence, distance, width
 from dalembert.model import Answer
 from dalembert.units import Units
 
@@ -135,3 +136,94 @@ def test_of_the_slips_that_come_near_a_figure_the_nearest_is_said(
     of = {"quantity": quantity, "of": "A"}
     figure = figure_of_key(Answer(**of, value=given), Answer(**of, value=right))
     assert explain([figure], None)[0].sentence.startswith(said)
+
+
+def compared(given: Any, right: Any, quantity: str = "effort", **more: Any) -> StudentValue:
+    of = {"quantity": quantity, "of": "A"}
+    return figure_of_key(Answer(**of, value=given, **more), Answer(**of, value=right))
+
+
+@pytest.mark.parametrize(
+    ("given", "value", "off"),
+    [
+        ("110.00 N", 110.55, 0.005),  # 9 % off the right 100 N: what is near explains it
+        ("110.00 N", 109.46, 0.54 / 110),
+        ("110.00 N", 110.56, None),
+        ("-110.00 N", -110.44, 0.004),
+        ("110 N", 110.49, 0.0),  # rounded
+        ("102.00 N", 102.39, 0.39 / 102),  # 2 % off: what is five times nearer
+        ("102.00 N", 102.41, None),
+        ("102.00 N", 101.61, 0.39 / 102),
+        ("102.00 N", 101.59, None),
+        ("110.00 N", float("nan"), None),
+    ],
+)
+def test_a_value_explains_a_figure_that_it_is_near_to(given: str, value: float, off: float | None) -> None:
+    figure = compared(given, "100 N")
+    found = distance(figure, [np.asarray(float("nan")), np.asarray(value), np.asarray(50.0)])
+    assert found == (None if off is None else pytest.approx(off, abs=1e-12))
+
+
+def test_of_several_values_the_nearest_one_counts() -> None:
+    assert distance(compared("110.00 N", "100 N"), [np.asarray(x) for x in (110.5, 110.1, 109.6)]) == (
+        pytest.approx(0.1 / 110)
+    )
+
+
+def test_the_room_of_a_figure_is_its_distance_its_last_digit_or_its_tolerance() -> None:
+    for given, off, room in (
+        ("110 N", 0.0, 0.5 / 110),
+        ("-110 N", 0.0, 0.5 / 110),
+        ("110 N", 0.02, 0.02),
+        ("110.00000 N", 0.0, 2e-4),
+        ("[30 N, -40.0 N]", 0.0, 0.5 / 50),
+        ("50 N @ 30.0 deg", 0.0, 0.5 / 50),
+        ("50.000 N @ 30.0 deg", 0.0, radians(0.05)),
+        ("50.000 N @ 30 deg", 0.0, radians(0.5)),
+        ("50.000 N @ 3e1 deg", 0.0, 0.01),
+    ):
+        vector = "@" in given or "[" in given
+        value = tuple(given.strip("[]").split(", ")) if "[" in given else given
+        figure = compared(value, ("1 N", "2 N") if vector else "100 N", "reaction" if vector else "effort")
+        assert width(figure, off) == pytest.approx(room), given
+    assert width(compared("110 N", "100 N", tolerance="3 %"), 0.0) == pytest.approx(0.03)
+    assert width(compared("30 deg", "60 deg"), 0.0) == 0.005
+
+
+@pytest.mark.parametrize(
+    ("given", "right", "value", "chance"),
+    [
+        ("-110.0 N", "100 N", -110.0, 2 * (0.05 / 110) * (0.93 * exp(-24.5) + 0.075 / 3.1**2)),
+        ("130.00 N", "-100 N", 130.0, 2 * 2e-4 * (0.93 * exp(-((2.3 / 0.3) ** 2) / 2) + 0.075 / 3.3**2)),
+        ("70.00 N", "100 N", 70.0, 2 * 2e-4 * (0.93 * exp(-0.5) + 0.075 / 1.3**2)),
+        ("5 N", "0 N", 5.0, 2 * 0.1 * 0.075 / 36),
+        ("-40 deg", "40 deg", radians(-40), 0.01 * (0.93 * exp(-((0.1 / 0.3) ** 2) / 2) + 0.075 / 1.21)),
+        (
+            "-40 deg",
+            "40 deg",
+            radians(-70),
+            0.01 * (0.93 * exp(-((pi / 1.8) ** 2) / 2) + 0.075 / (1 + pi / 6) ** 2),
+        ),
+        (
+            "5 N",
+            "4.9 N",
+            5.0,
+            2 * 0.1 * (0.93 * exp(-((0.1 / 4.9 / 0.3) ** 2) / 2) + 0.075 / (1 + 0.1 / 4.9) ** 2),
+        ),
+    ],
+)
+def test_a_coincidence_is_the_room_of_a_figure_times_the_frequency_of_wrong_numbers_there(
+    given: str, right: str, value: float, chance: float
+) -> None:
+    """Small slips are frequent, by a bell curve of 0.3; gross ones are seldom, by their square."""
+    assert coincidence(compared(given, right), np.asarray(value), 0.0) == pytest.approx(chance)
+    assert coincidence(compared(given, right), np.asarray(value), 1e9) == 1.0
+
+
+def test_values_are_alike_within_twice_the_room() -> None:
+    figure = compared("110 N", "100 N")  # 0.5 N
+    for other, alike_ones in ((101.0, True), (99.0, True), (101.01, False), (98.99, False)):
+        assert alike(figure, np.asarray(100.0), np.asarray(other)) is alike_ones
+    nothing = compared("0 N", "100 N")
+    assert alike(nothing, np.asarray(100.0), np.asarray(100.00039))
+    assert not alike(nothing, np.asarray(100.0), np.asarray(100.00041))

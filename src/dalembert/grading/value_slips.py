@@ -57,11 +57,7 @@ def density(d: float) -> float:
 
 def distance(f: StudentValue, values: Sequence[Array]) -> float | None:
     """Distance of a figure from the nearest of some values that explain it, 0 if it is one of them rounded."""
-    offs = [
-        0.0 if f.close.is_rounded(v) else f.close.off(v)
-        for v in values
-        if np.isfinite(v).all() and explains(f, v)
-    ]
+    offs = [0.0 if f.close.is_rounded(v) else f.close.off(v) for v in values if explains(f, v)]
     return min(offs, default=None)
 
 
