@@ -227,3 +227,34 @@ def test_an_interrupted_workbook_leaves_nothing(tmp_path: Path, monkeypatch: pyt
     with pytest.raises(KeyboardInterrupt):
         da.dynamics(FOUR_BAR, positions=12).to_xlsx(tmp_path / "r.xlsx")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_chart_has_the_twelve_largest_curves_of_a_kind() -> None:
+    r = da.statics(da.load(examples()["scissor_lift"]), positions=3)
+    charts = {d.title: d for d in workbook.column_diagrams(r, r.scale("SI"), "ground")}
+    sizes: dict[str, list[float]] = {}
+    for c in r.columns("ground"):
+        if c.kind in ("force", "moment") and not c.name.startswith("drive."):
+            sizes.setdefault(c.kind, []).append(float(np.abs(c.values[:]).max()))
+    assert len(sizes["force"]) > 12 > len(sizes["moment"])
+    for title, kind in (("Force", "force"), ("Moment", "moment")):
+        drawn = [float(np.abs(curve.values).max()) for curve in charts[title].curves]
+        assert drawn == pytest.approx(sorted(sizes[kind], reverse=True)[:12])
+    assert len(charts) == 6
+
+
+def test_sheets_that_were_written_are_left_closed_where_the_last_one_is_interrupted(tmp_path: Path) -> None:
+    for closed in (True, False):
+        made: list[Any] = []
+
+        def interrupted(closed: bool = closed, made: list[Any] = made) -> None:
+            with workbook.new_book(tmp_path / "b.xlsx") as book:
+                made.append(workbook.add_sheet(book, "a", [["1", 2.0]]))
+                if closed:
+                    made[0].close()
+                raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            interrupted()
+        assert made[0].closed
+    assert list(tmp_path.iterdir()) == []
