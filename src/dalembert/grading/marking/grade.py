@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dalembert.answer.answer import Worked
 from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice
-from dalembert.errors import ModelError
+from dalembert.errors import DalembertError, ModelError
 from dalembert.grading.explanation import explain
 from dalembert.grading.figure import StudentValue
-from dalembert.grading.file_answers import describe_answer
+from dalembert.grading.file_answers import describe_answer, position_of
 from dalembert.grading.marking.by_hand import ReadFigure, check_class, decide_cells, read_figure
 from dalembert.grading.marking.class_sheets import StudentSheet, class_sheets
-from dalembert.grading.marking.key import Asked, ExamVariant, Key, read_key
+from dalembert.grading.marking.key import Asked, ExamVariant, Key, place, read_key
 from dalembert.grading.marking.marks_tabs import FIGURE, figures, marks_parts, marks_tabs
 from dalembert.grading.marking.rubric import Rubric, load_rubric
 from dalembert.grading.marking.student_marks import Mark, StudentMarks, named_mistakes
@@ -204,14 +204,12 @@ class _Marker:
         """The sheet's answers to the required figures, and its other figures."""
         names = self.key.names()
         read = [read_figure(one, sheet, names) for one in sheet.figures]
+        given = [g.keys | {"at": _place(variant, g.keys.get("at"))} for g in sheet.figures]
         used: set[int] = set()
         out = []
         for question in variant.asked:
-            fits = [
-                (f, n)
-                for n, g in enumerate(sheet.figures)
-                if (f := _fit(question.answer, g.keys)) is not None
-            ]
+            asked = question.answer.model_copy(update={"at": _place(variant, question.answer.at)})
+            fits = [(f, n) for n, keys in enumerate(given) if (f := _fit(asked, keys)) is not None]
             if not fits:
                 out.append(_Taken(question, None, None, "", 0))
                 continue
@@ -307,6 +305,22 @@ class _Marker:
             share *= self.rubric.shares["part"]
         sentence = "; ".join(filter(None, [sentence, "only its size" if t.part else "", *t.notes]))
         return Mark(words, verdict.given, verdict.computed, outcome, sentence, most * share, most, t.line)
+
+
+def _place(variant: ExamVariant, at: object) -> object:
+    """The number of a position that is named by the value of a drive, where the problem has one there."""
+    at = None if at is None else place(str(at))
+    if not isinstance(at, str) or variant.problem is None:
+        return at
+    try:
+        return (
+            position_of(
+                variant.problem.result, variant.asked[0].answer.model_copy(update={"at": at, "extreme": None})
+            )
+            + 1
+        )
+    except DalembertError:
+        return at
 
 
 def _fit(question: StatedAnswer, keys: Mapping[str, object]) -> int | None:
