@@ -342,3 +342,36 @@ def test_marks_as_arrays_are_rows_of_texts_and_what_is_missing_is_empty() -> Non
     dimension, texts, _ = data["line"]
     assert (dimension, texts.tolist()) == ("row", [""])
     assert (data["student"][1].tolist(), rows["row"].tolist()) == (["ann"], [1])
+
+
+@pytest.mark.parametrize(
+    ("asked", "given", "outcome"),
+    [
+        ("2", "2", "right"),
+        ("2", "", "right"),
+        ("2", "60 deg", "right"),
+        ("60 deg", "2", "right"),
+        ("60 deg", "60.0 deg", "right"),
+        ("60 deg", "1.047197551 rad", "right"),
+        ("60 deg", "", "right"),
+        ("2", "0 deg", "missing"),
+        ("2", "1", "missing"),
+        ("2", "70 deg", "missing"),
+        ("60 deg", "3", "missing"),
+    ],
+)
+def test_a_position_is_the_same_by_its_number_and_by_the_value_of_its_drive(
+    asked: str, given: str, outcome: str, tmp_path: Path
+) -> None:
+    m = da.four_bar().with_values({"drives.O2.position": ["0 deg", "60 deg", "120 deg"]})
+    m.save(tmp_path / "m.yaml")
+    (tmp_path / "key.csv").write_text(f"quantity,of,at,file\neffort,O2,{asked},m.yaml\n")
+    effort = float(da.dynamics(m).effort("O2")[1])
+    (tmp_path / "ann.csv").write_text(
+        f"student,quantity,of,at,value\nann,effort,O2,{given},{effort:.6g} N*m\n"
+    )
+    (student,) = da.grade(tmp_path / "ann.csv", tmp_path / "key.csv").students
+    assert [mark.outcome for mark in student.marks] == [outcome]
+    assert [problem.endswith(": not asked") for problem in student.problems] == [True] * (
+        outcome == "missing"
+    )

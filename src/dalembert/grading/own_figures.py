@@ -111,8 +111,7 @@ class OwnSheet:
         """Equations in which nothing but a figure's unknown is open: coefficients, right side, if a wrong figure is in
         it."""
         of = self.q.of(self.figures[n])
-        if of is None:
-            return
+        assert of is not None
         own, changes = self.q.stated(self.figures, taken), self.q.accelerations(self.figures, taken)
         for row in self.q.rows:
             if of[0] not in row.parts:

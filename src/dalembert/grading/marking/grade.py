@@ -312,13 +312,9 @@ def _place(variant: ExamVariant, at: object) -> object:
     at = None if at is None else place(str(at))
     if not isinstance(at, str) or variant.problem is None:
         return at
+    named = variant.asked[0].answer.model_copy(update={"at": at, "extreme": None})
     try:
-        return (
-            position_of(
-                variant.problem.result, variant.asked[0].answer.model_copy(update={"at": at, "extreme": None})
-            )
-            + 1
-        )
+        return position_of(variant.problem.result, named) + 1
     except DalembertError:
         return at
 
