@@ -7,6 +7,8 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
+from dalembert.errors import AnalysisError, ModelError
+from tests.friction.test_reversals import DEAD_CENTRE
 from tests.random_mechanisms import random_case
 
 BUNDLED = {
@@ -70,3 +72,36 @@ def test_what_cannot_be_asked() -> None:
     with pytest.raises(da.AnalysisError) as error:
         da.wrench.on(broken, "crank")
     assert str(error.value) == f"position 1: {broken.reasons[0]}"
+
+
+def test_a_free_body_says_which_it_is_or_why_it_is_none() -> None:
+    m = da.load(BUNDLED["four_bar"])
+    r = da.statics(m.with_values({"links.coupler.points.B": [0.0, 0.14]}), positions=24)
+    k = r.ok.argmax()
+    assert da.wrench.on(r, "coupler", "rocker").title == f"coupler and rocker, position {k + 1}"
+    with pytest.raises(AnalysisError) as caught:
+        da.wrench.on(r, "coupler", at=1)
+    assert str(caught.value) == f"position 1: {r.reasons[0]}"
+    wrong: list[tuple[da.Result, tuple[str, ...], str]] = [
+        (r, ("couplr",), "unknown link 'couplr'; did you mean 'coupler'?"),
+        (r, (), "no link is named; name some of crank, coupler, rocker"),
+        (
+            da.kinematics(m),
+            ("coupler",),
+            "this result is a motion without forces; take one of da.dynamics or da.statics",
+        ),
+    ]
+    for result, links, said in wrong:
+        with pytest.raises(ModelError) as refused:
+            da.wrench.on(result, *links)
+        assert str(refused.value) == said
+
+
+def test_the_title_of_a_free_body_says_what_is_not_unique() -> None:
+    """At the dead centre of a slider-crank friction reverses."""
+    s = da.statics(da.loads(DEAD_CENTRE.format(way=1, couple=0, force=100)))
+    assert [da.wrench.on(side, "rod", at=1).title for side in (s, s.after)] == [
+        "rod, position 1, just before contacts reverse",
+        "rod, position 1",
+    ]
+    assert da.wrench.on(s, "rod", at=2).title == "rod, position 2"

@@ -41,6 +41,8 @@ def on(r: Result, *links: str, at: PositionChoice = None) -> System:
     if r.status[k] not in FORCED:
         raise AnalysisError(f"position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
     outside = [a for a in actions(r) if a.link in links and a.by not in links]
+    if not all(np.isfinite(a.force[k]).all() for a in outside):
+        raise ModelError("this result is a motion without forces", "take one of da.dynamics or da.statics")
     title = " and ".join(links) + (f", position {k + 1}" if len(r.status) > 1 else "")
     title += ", least-norm reactions" if r.status[k] == "redundant" else ""
     title += ", just before contacts reverse" if r.reverses[k] else ""
