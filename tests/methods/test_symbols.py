@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.methods.applied_forces import actions
+from dalembert.bundled import examples
 from dalembert.model.joints.joint_part import JointPart, kinds_of
 from dalembert.model.load_types import SpanLoad
 from dalembert.views.formats.glb import _material
 from dalembert.views.formats.themes import SOLIDS, THEMES
+from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arrow, Circle, Line, Polygon
 from dalembert.views.plane.joint_drawings import DRAWINGS
@@ -286,3 +290,24 @@ def test_one_force_has_no_polygon() -> None:
     two = da.draw.force_system(System(Force([3, 4], name="F"), Force([1, 0], at=[0, 1], name="G")))
     assert [a.of for a in one.arrows()].count("F") == 1
     assert [a.of for a in two.arrows()].count("F") == 2
+
+
+def test_the_signs_of_what_acts_on_a_link() -> None:
+    r = da.dynamics(da.load(examples()["four_bar"]), positions=1)
+    shown, named = (Shown(r, notation, 0) for notation in (Notation(), Notation(links="name")))
+    signs = [
+        (a.kind, a.link, shown.symbol(a)) for a in actions(r) if a.link == "coupler" or a.kind == "effort"
+    ]
+    assert signs == [
+        ("joint", "coupler", "F_{23}"),
+        ("joint", "coupler", "F_{43}"),
+        ("effort", "crank", "T_{12}"),
+        ("effort", "ground", "T_{21}"),
+        ("load", "coupler", "F_{P}"),
+        ("inertia", "coupler", "F_{I3}"),
+        ("inertia", "coupler", "T_{I3}"),
+    ]
+    on_coupler = next(a for a in actions(r) if (a.of, a.link) == ("A", "coupler"))
+    parts = [replace(on_coupler, part=part) for part in ("normal", "ahead")]
+    assert [shown.symbol(a) for a in parts] == ["N_{23}", "F_{23,ahead}"]
+    assert [named.symbol(a) for a in parts] == ["N_{crank,coupler}", "F_{crank,coupler,ahead}"]
