@@ -213,7 +213,7 @@ def test_what_vanishes_at_a_dead_centre_changes_by_less_than_it_is(
 
 @pytest.mark.parametrize(("part", "followed"), [(0.99, True), (1.01, False)])
 def test_a_motion_is_looked_at_as_far_as_that_can_be_done(part: float, followed: bool) -> None:
-    m = da.four_bar().with_values({"drives.O2.position": (0.0, part * FARTHEST)})
+    m = da.four_bar().with_values({"drives.O2.position": (-0.5, 0.0, part * FARTHEST)})
     c = compile_mechanism(m, m.schedule())
     assert (walk.walk_through(c, FARTHEST) is not None) is followed
     step = part * FARTHEST / (walk.MOST * (0.999 if followed else 1.001))
