@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -11,11 +12,13 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.methods.applied_forces import actions
 from dalembert.bundled import examples
 from dalembert.cli import check_command, main
 from dalembert.cli.method_text import superposition_text, virtual_work_answer
 from dalembert.reports.formula import latex, plain
 from dalembert.reports.sections import friction, given
+from dalembert.reports.sections.equilibrium_equations import link_equations
 from dalembert.reports.sections.methods import cycle
 from dalembert.reports.sections.motion import inertia_shares
 from dalembert.reports.sections.sources import superposition
@@ -176,6 +179,22 @@ def test_a_joint_known_at_some_positions_is_in_the_cycle() -> None:
     sheet = ReportSheet("t")
     cycle(sheet, ReportContext(r, 0, Shown(r, Notation(), 0), METHODS, "", Notation()))
     assert [row[0] for row in table(sheet, "Largest").rows][1:] == [f"joint {n}" for n in r.joints]
+
+
+@pytest.mark.parametrize(("part", "left"), [(1e-5, 1.0), (-1e-5, -1.0), (1e-11, 0.0)])
+def test_a_sum_of_forces_that_is_not_zero_says_what_is_left(part: float, left: float) -> None:
+    """Of reactions that are too large by a part, that part of the inertia forces; less than rounding is 0."""
+    from dalembert.views.notation import Notation, Shown
+
+    r = da.dynamics(da.load(examples()["four_bar"]), positions=1)
+    wrong = replace(r, force_array=r.force_array * (1 + part))
+    some, _ = link_equations(wrong, "rocker", 0, Shown(wrong, Notation(), 0))
+    inertia = (
+        next(a for a in actions(r) if (a.kind, a.link) == ("inertia", "rocker")).force[0] / 4.4482216152605
+    )
+    for line, force in zip(some, inertia, strict=False):
+        total = line.numbers.rpartition(" = ")[2].partition(" ")[0].replace("−", "-")
+        assert float(total) == pytest.approx(-left * 1e-5 * force, rel=1e-3)
 
 
 def test_the_forces_of_eight_joints_are_split_and_the_rest_is_named() -> None:
