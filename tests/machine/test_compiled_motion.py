@@ -9,7 +9,7 @@ import pytest
 
 import dalembert as da
 from dalembert.errors import ModelError
-from tests.machine.test_simulate import FOUR_BAR, own_energies, rotor
+from tests.machine.test_simulate import FOUR_BAR, TWO_SLIDES, own_energies, rotor
 
 pytest.importorskip("llvmlite")
 VARY = ["links.coupler.mass", "links.crank.points.A", "drives.O2.effort", "start.O2.speed"]
@@ -123,6 +123,19 @@ def test_a_motor_with_corners_is_that_of_simulate() -> None:
         s = da.simulate(m, "0.6 s")
         assert found == pytest.approx(s.speed("O2")[-1:], rel=1e-7)
         assert effort == pytest.approx(s.result["effort.O2"][-1], rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.parametrize("masses", [[0.0], [1.0, 0.0], [0.0, 0.0]])
+def test_a_design_that_cannot_begin_is_undecided_also_without_others(masses: list[float]) -> None:
+    """A part between two drives that has no mass: no step can be taken. With 1 kg its drives give 4 and -3 m/s."""
+    text = TWO_SLIDES.replace("RUBS", "").replace("SPEED", "0").replace("MASS", ", mass: 1")
+    k = da.compile_motion(da.loads(text), "1 s", ["links.a.mass"], ["effort.S"], "final")
+    r = k(np.array(masses)[:, None])
+    assert r.ok.tolist() == [m > 0 for m in masses]
+    for d, mass in enumerate(masses):
+        known = [4.0, -3.0] if mass else [np.nan, np.nan]
+        assert r.speed[d] == pytest.approx(known, rel=1e-9, nan_ok=True)
+        assert r.ended[d].startswith("time" if mass else "undecided: its steps became too small")
 
 
 def test_a_motion_that_cannot_go_on_is_undecided() -> None:

@@ -66,6 +66,8 @@ class MotionBlock:
     def __call__(self, begin: Array, values: Array) -> Motions:
         """Motions from states (M, n) with values (M, ...) of the steps."""
         records, design, failed = self._integrate(begin, values)
+        if not len(records):  # no design takes a step
+            records, design = np.full((1, records.shape[1]), np.nan), np.zeros(1, np.intp)
         time, met = self._ends(records, design, len(begin))
         t = time[:, None] * (np.linspace(0.0, 1.0, self.instants) if self.instants > 1 else np.ones(1))
         each = np.arange(len(t))[
