@@ -145,6 +145,19 @@ def test_an_effort_by_a_table_is_even_beyond_its_ends() -> None:
     assert r.value("effort.S") == pytest.approx(5.0, rel=1e-3)
 
 
+@pytest.mark.parametrize("reduce", [None, "envelope"])
+def test_a_design_that_cannot_begin_has_no_numbers_beside_one_that_can(reduce: str | None) -> None:
+    """A block without mass, and one of 1 kg, which 1 N pushes."""
+    k = da.compile_motion(da.loads(PUSHED), "0.1 s", ["links.block.mass"], ["effort.S"], reduce, count=5)
+    r, one = k([[0.0], [1.0]]), k([[1.0]])
+    assert r.ok.tolist() == [False, True]
+    assert "a part that moves has no inertia: forces that move S move no mass" in r.ended[0]
+    assert np.isnan(r.value("effort.S")[0]).all()
+    assert r.value("effort.S")[1] == pytest.approx(one.value("effort.S")[0])
+    assert r.value("effort.S").shape == (2, 5 if reduce is None else 2)
+    assert r.value("effort.S")[1] == pytest.approx(1.0)
+
+
 def test_what_is_in_doubt_is_simulated_alone() -> None:
     """A design that comes to a dead centre beside one that does not says why it stops."""
     m = da.loads(FOUR_BAR.replace("effort: 0", "effort: 0, brake: 0.1 N*m"))

@@ -19,8 +19,9 @@ def over_instants(reduce: str | None, values: Array, time: Array, count: int) ->
     array(3.)
     """
     known = np.isfinite(values).reshape(len(values), -1).all(axis=1)
-    if reduce == "final" or not known.any():
+    if reduce == "final":
         return np.asarray(values[-1])
+    known |= not known.any()  # of none that are known the shape
     end, values, time = time[-1], values[known], time[known]
     if reduce not in ("peak", "envelope"):
         at, shape = np.linspace(0.0, end, count), values.shape[1:]
