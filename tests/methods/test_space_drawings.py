@@ -18,7 +18,7 @@ from dalembert.arrays import Array
 from dalembert.bundled import examples
 from dalembert.machine.shaking import shaking_force
 from dalembert.model.joints.pairs import PAIRS
-from dalembert.views.paper.scene import Line, Polygon
+from dalembert.views.paper.scene import Line, Polygon, Text
 from dalembert.views.space.camera import CAMERAS, Camera
 from dalembert.views.space.link_solids import link_solids, mount, pose
 from dalembert.views.space.painter import paint
@@ -328,6 +328,8 @@ def test_animations(kind: str, tmp_path: Path) -> None:
     animation = da.draw.animation(solved("rssr", drives=drives), camera="front")
     animation.save(tmp_path / f"a.{kind}")
     assert len(animation.frames) == 3
+    axes = [i for i in animation.still if isinstance(i, Text) and i.text in ("x", "y", "z")]
+    assert [i.text for i in axes] == ["x", "z"], "seen from the front"
     for scene in animation.frames:
         for arrow in scene.arrows():
             if arrow.kind:

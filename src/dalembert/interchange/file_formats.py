@@ -148,9 +148,12 @@ def load_foreign(path: str | os.PathLike[str]) -> Mechanism:
     return m
 
 
-def save_with_warnings(m: Mechanism, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-    """As `save_foreign`; what is not kept is a warning (NotKept) each."""
-    _warn(path, save_foreign(m, path, overwrite))
+def save_with_warnings(m: Mechanism, path: str | os.PathLike[str], overwrite: bool) -> None:
+    """Write another program's file; what of the mechanism is not in it is a warning (NotKept) each."""
+    content, lost = foreign_bytes(m, path)
+    with new_file(path, overwrite) as temporary:
+        temporary.write_bytes(content)
+    _warn(path, lost)
 
 
 def _warn(path: str | os.PathLike[str], lost: list[str]) -> None:
@@ -176,14 +179,6 @@ def foreign_bytes(
     else:
         content, lost = write(m)
     return (content.encode() if isinstance(content, str) else content), lost
-
-
-def save_foreign(m: Mechanism, path: str | os.PathLike[str], overwrite: bool = False) -> list[str]:
-    """Write another program's file; returns what of the mechanism is not in it, a line each."""
-    content, lost = foreign_bytes(m, path)
-    with new_file(path, overwrite) as temporary:
-        temporary.write_bytes(content)
-    return lost
 
 
 def _beyond(m: Mechanism) -> list[str]:
