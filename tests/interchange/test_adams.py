@@ -290,3 +290,21 @@ def test_a_part_may_have_the_name_of_its_model(tmp_path: Path) -> None:
     assert lost == []
     assert list(m.links) == ["ground", "M"]
     assert da.dynamics(m).effort("O") == pytest.approx(da.dynamics(arm(tmp_path, ARM)[0]).effort("O"))
+
+
+@pytest.mark.parametrize(
+    ("order", "function", "whole"),
+    [
+        ("displacement", "0.2 - 0.3*time**2*(sin(time)**2 + cos(time)**2)", True),
+        ("displacement", "0.2 - 0.3*time**3", False),
+        ("velocity", "0.5 - 0.1*time", True),
+        ("velocity", "0.5 - 0.1*time**2", False),
+        ("velocity", "0.5 + 0.1*time**2", False),
+    ],
+)
+def test_a_motion_slowed_down_is_kept_as_one_that_is_sped_up(
+    order: str, function: str, whole: bool, tmp_path: Path
+) -> None:
+    by = "" if order == "displacement" else f"time_derivative = {order} "
+    text = ARM.replace('function = "10D + 0.5*", "time + 2*TIME**2"', f'{by}function = "{function}"')
+    assert arm(tmp_path, text)[1] == ([] if whole else ["line 13: the motion '.M.motion_O' after time 0"])

@@ -62,6 +62,19 @@ def test_a_mechanism_rests_where_its_drive_needs_no_effort() -> None:
     assert "No position of cylinder" in resting_positions(loads(hung), read_text(hung)[0])["sentence"]
 
 
+def test_a_block_on_a_spring_rests_within_its_travel() -> None:
+    """k (0.4 m - s) = m g with k = 10 g kg/m: at 0.3 m, which is sought between the ends of the drive's positions."""
+    text = """
+gravity: standard
+links: {ground: {points: {O: [0, 0]}}, block: {points: {B: [0, 0]}, mass: 1}}
+joints: {S: {type: slider, links: [ground, block], at: [O, B], direction: 90}}
+drives: {S: {position: [0.1 m, 0.2 m, 0.5 m], speed: 1 m/s}}
+loads: {k: {type: spring, between: [ground.O, block.B], stiffness: 98.0665 N/m, free_length: 0.4 m}}
+"""
+    (row,) = resting_positions(loads(text), read_text(text)[0])["rows"]
+    assert (row["position"], row["stability"]) == (pytest.approx(0.3), "stable")
+
+
 def test_the_shares_of_the_loads_add_up() -> None:
     r = da.dynamics(loads(problem_text("example", "four_bar")))
     told = shares(r)
