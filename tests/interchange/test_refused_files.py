@@ -156,10 +156,11 @@ def test_files_that_are_too_large_or_no_files(tmp_path: Path) -> None:
         (tmp_path / name).write_bytes(content.ljust(size))
         with pytest.raises(ModelError, match=words):
             read_foreign(tmp_path / name)
-    position = {"id": "a", "type": "ground", "position": [1e70, 0]}
-    (tmp_path / "x.json").write_text(json.dumps({"joints": [position], "links": []}))
-    with pytest.raises(ModelError, match="a position is not finite; write finite numbers"):
-        read_foreign(tmp_path / "x.json")
+    for place in ([1e70, 0], [0, -1e70]):
+        position = {"id": "a", "type": "ground", "position": place}
+        (tmp_path / "x.json").write_text(json.dumps({"joints": [position], "links": []}))
+        with pytest.raises(ModelError, match="a position is not finite; write finite numbers"):
+            read_foreign(tmp_path / "x.json")
 
 
 def test_skeletons_without_links_ground_or_pins(tmp_path: Path) -> None:

@@ -163,6 +163,7 @@ REFUSED = {
         (mjcf("<geom size='x'/>"), "'x' is not a list of numbers; write numbers"),
         (mjcf(f"<geom size='{'1 ' * 5000}1'/>"), "has too many numbers; give a shorter list"),
         (mjcf(f"<body pos='{'1 ' * 5000}'/>"), "pos of <body> has 5000 numbers; give 3"),
+        (mjcf("<body pos='0 -2e60 0'/>"), "is not finite; write finite numbers"),
         (mjcf("<body><inertial pos='0 0 0'/></body>"), "<inertial> has no mass; give mass"),
         (equality("<connect body1='x' anchor='0 0 0'/>"), "unknown body 'x'; name a body of the file"),
         (equality("<connect body1='b'/>"), "<connect> has no anchor; give anchor"),

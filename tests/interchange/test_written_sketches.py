@@ -92,7 +92,7 @@ def test_a_driver_begins_at_the_angle_from_its_motor_to_its_other_joint(angle: f
     assert driver["initial_angle"] == pytest.approx(angle)
 
 
-@pytest.mark.parametrize("rpm", [200.0, -200.0, 0.0, 12.5, -12.5])
+@pytest.mark.parametrize("rpm", [200.0, -200.0, 0.0, 12.5, -12.5, 13.7])
 def test_a_link_has_the_sense_and_whole_turns_of_its_drive(rpm: float, tmp_path: Path) -> None:
     m = da.four_bar(positions=1).with_values({"drives.O2.speed": rpm * math.pi / 30})
     read, lost = back(m, tmp_path / "x.pmks")

@@ -102,7 +102,14 @@ def test_a_pull_goes_on_from_the_last_one_and_leaves_the_text(session: Session) 
     last = session.handle({"pull": {"link": "crank", "at": at, "path": ["far", *[far] * 8]}})
     assert last["pose"]["crank"][2] == pytest.approx(np.pi / 2, abs=0.1), "of the last eight places"
     unread = {"link": "crank", "at": at, "path": ["far", *[far] * 7]}
-    for wrong in ({"link": "crank", "at": [float("nan"), 0], "path": [far]}, {"link": "crank"}, 3, unread):
+    endless = {"link": "crank", "at": at, "path": [[float("inf"), 0.0]]}
+    for wrong in (
+        {"link": "crank", "at": [float("nan"), 0], "path": [far]},
+        {"link": "crank"},
+        3,
+        unread,
+        endless,
+    ):
         with pytest.raises(ModelError, match="the pull cannot be read; reload the page"):
             session.handle({"pull": wrong})
     with pytest.raises(ModelError, match="this link cannot be pulled; choose a moving link"):
