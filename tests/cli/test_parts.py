@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from types import SimpleNamespace
 from typing import Any
 
@@ -120,3 +121,17 @@ def test_a_superposition_has_the_moment_of_each_joint_beside_its_force() -> None
     assert [head.endswith("guide m") for head in heads] == [False, True]
     (row,) = (line.split() for line in tables[-1].splitlines() if line.startswith("twist"))
     assert float(row[-1]) == -30
+
+
+def test_a_superposition_in_space_has_the_moments_of_each_joint_behind_its_force() -> None:
+    r = da.dynamics(da.load(examples()["rssr"]), positions=2)
+    heads = "".join(
+        line for line in method_text.superposition_text(r, "SI").splitlines() if line.startswith("source")
+    )
+    named = re.findall(r"\|(\w+)\||(\w+) m([xyz])", heads)
+    assert [one for one, _, _ in named if one] == list(r.joints)
+    assert any(axis for *_, axis in named)
+    last = ""
+    for size, moment, _ in named:
+        last = size or last
+        assert moment in ("", last)

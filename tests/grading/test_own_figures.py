@@ -296,3 +296,61 @@ def test_a_number_is_as_right_as_the_loads_that_it_is_the_rest_of(sense: int) ->
             given(r, "effort", "O2", effort),
         ]
         assert own_figures(SheetEquations(r), sheet).numbers == {0: numbers}
+
+
+def test_what_follows_from_right_figures_is_not_carried_on() -> None:
+    """A force 0.45 % off is right; the torque by it is 1 % off, which is nearly right and no mistake of before."""
+    r = da.dynamics(machine())
+    arm, force = r.position("coupler")[0] - r.position("crank")[0], r.reaction("A", on="crank")[0]
+    across = np.array([-arm[1], arm[0]]) / np.hypot(*arm)
+    off = 0.0045 * np.hypot(*force) * across
+    torque = float(r.effort("O2")[0])
+    sheet = {
+        "A": given(r, "reaction", "A", force + off, on="crank"),
+        "T": given(r, "effort", "O2", torque - cross(arm, off)),
+    }
+    assert (sheet["A"].met, sheet["T"].met) == (True, False)
+    assert judged(r, sheet) == ({}, [])
+
+
+def test_a_component_follows_from_no_equation_that_has_the_other_one() -> None:
+    """The moments about O2 join torque and x component where y is on the sheet, and not as if y were nothing."""
+    r = da.dynamics(machine())
+    arm, force = r.position("coupler")[0] - r.position("crank")[0], r.reaction("A", on="crank")[0]
+    right = float(r.effort("O2")[0])
+    rest = -(right + cross(arm, force))  # what acts on the crank besides
+    wrong = 1.5 * right
+    for y, follows in ((0.0, {}), (force[1], {"T": "moments about O2 on crank"})):
+        x = (wrong + rest + arm[0] * y) / arm[1]
+        sheet = {
+            "T": given(r, "effort", "O2", wrong),
+            "x": given(r, "reaction", "A", x, on="crank", component="x"),
+        }
+        if follows:
+            sheet["y"] = given(r, "reaction", "A", y, on="crank", component="y")
+        assert judged(r, sheet)[0] == follows
+    sheet = {
+        "y": given(r, "reaction", "A", force[1] + 40.0, on="crank", component="y"),
+        "nothing": given(r, "reaction", "O2", 0.0, on="crank", component="x"),
+    }
+    assert judged(r, sheet) == ({}, [])  # the sum along y has no x component
+
+
+@pytest.mark.parametrize("on", ["piston", "ground"])
+@pytest.mark.parametrize("off", [250.0, -250.0])
+@pytest.mark.parametrize("direction", [0.0, 180.0])
+def test_the_force_of_a_guide_follows_whichever_sense_its_normal_has(
+    off: float, on: str, direction: float
+) -> None:
+    """The pin's component across the guide is wrong by as much on the piston as the guide's force."""
+    m = da.slider_crank().with_values(
+        {"drives.O2.position": 1.0, "joints.guide.direction": f"{direction} deg"}
+    )
+    r = da.dynamics(m)
+    pin = r.reaction("B", on="piston")[0] + [0.0, off]
+    guide = r.reaction("guide", on="piston")[0] - [0.0, off]
+    sheet = {
+        "B": given(r, "reaction", "B", pin, on="piston"),
+        "guide": given(r, "reaction", "guide", guide if on == "piston" else -guide, on=on),
+    }
+    assert judged(r, sheet) == ({"guide": "sum of forces along y on piston"}, ["B"])

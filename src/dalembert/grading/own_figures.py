@@ -154,7 +154,7 @@ class OwnSheet:
             if not wrong or abs(factor) < 1e-12 or np.abs(c - factor * unit).max() > 1e-7 * np.abs(c).max():
                 continue
             along = requested @ np.linalg.pinv(unit[None]) * (b / factor)
-            if f.close.holds(_shown(f, along[:, 0] if len(requested) > 1 else along[:, 0][:1], rank)):
+            if f.close.holds(_shown(f, along[:, 0], rank)):
                 return row.words
         for some in self._together(rows, need) if need > 1 else ():
             x = np.linalg.lstsq(
