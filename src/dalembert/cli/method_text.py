@@ -178,10 +178,10 @@ def _powers(work: VirtualWork, drive: int, k: int, to: Printed) -> str:
         _cells(values * factor, len(work.actions), least * factor) for values, factor, least in columns
     ]
     rows = [[a.source, *(x for part in numbers for x in part[n])] for n, a in enumerate(work.actions)]
-    total = float(work.power[:, k, drive].sum()) * to(kind, 1.0)
+    power, factor, least = columns[-1]
+    total = float(power.sum()) * factor
     heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
-    beside = load * reach * length * to(kind, 1.0)
-    rows.append(["sum", *[""] * (len(heads) - 2), number(round_components([total], beside)[0])])
+    rows.append(["sum", *[""] * (len(heads) - 2), number(round_components([total], least * factor)[0])])
     units = f"forces in {to.text('force')}, couples in {to.text('moment')}, moves in {to.text('length')}"
     return (
         f"1 {unit} of {name}: {units}, turns in rad\n\n"

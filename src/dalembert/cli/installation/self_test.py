@@ -24,7 +24,7 @@ def outcomes() -> Iterator[tuple[str, str]]:
 def compared(name: str, first: float, second: float) -> str:
     """Sentence if two values of one quantity differ, else "".
 
-    >>> compared("effort", -1.0, -1.0 + 1e-12), compared("effort", 1.0, float("nan"))
+    >>> compared("effort", -100.0, -100.0 + 5e-8), compared("effort", 1.0, float("nan"))
     ('', 'effort: 1.0 by one route, nan by the other')
     >>> compared("effort", 1.0, -1.0)
     'effort: 1.0 by one route, -1.0 by the other'
