@@ -401,6 +401,7 @@ UNDER_UNITS = {  # of the four-bar in lbf and inches: 27.482 N*m, 688.607 N at -
     "T12 (N m);27480 N mm": "27480 N mm",
     "T12 [lbf in];243.2": "243.2 lbf*in",
     "T12 (2 marks);243.2": "243.2",
+    "T12 [2 marks];243.2": "243.2",
     "T12;243,2": "243.2",
     "Reaction of A on coupler, F23 [kN];0,6886 \u2220 -139,7": "0.6886 kN @ -139.7",
     "F23 (N);[-525, -445.6]": "[-525 N, -445.6 N]",
@@ -427,7 +428,14 @@ def test_a_heading_gives_the_unit_of_the_numbers_under_it(written: str, tmp_path
 
 @pytest.mark.parametrize(
     ("value", "unit", "outcome"),
-    [("27,48", "N*m", "right"), ("27.48", "Nm", "right"), ("243,2", "", "right"), ("27,48", "", "unknown")],
+    [
+        ("27,48", "N*m", "right"),
+        ("27.48", "Nm", "right"),
+        ("243,2", "", "right"),
+        ("27,48", "", "unknown"),
+        ("243,2", "Nmn", "waits"),
+        ("243.2", "kg", "waits"),
+    ],
 )
 def test_a_table_with_a_row_a_figure_has_its_units_beside(
     value: str, unit: str, outcome: str, tmp_path: Path

@@ -19,6 +19,10 @@ from dalembert.unit_names import unit
 NUMBER = r"(?:[-+]\s*)?(?:\d(?:[\d.,'\s]*\d)?\.?|[.,]\d+)(?:\s*(?:[eE]|[*·×x]\s*10\s*\^?)\s*\(?[-+]?\d+\)?)?"
 """A number with marks of thousands and decimals in any use, and a power of ten."""
 
+_REQUIRED = "force moment length angle speed angular_speed acceleration angular_acceleration power"
+DIMENSIONS = {units.KINDS[kind].dimension for kind in _REQUIRED.split()}
+"""Dimensions of what figures are of."""
+
 LONGEST = 200
 """Characters of a cell that is read."""
 
@@ -233,17 +237,16 @@ def _unit(text: str) -> str:
 
 def written_unit(text: str) -> str:
     """A unit of a force, a moment, a length, an angle or their rates as a model file writes it; empty where the text
-    is none.
+    is none, or the letter of another thing.
 
-    >>> written_unit("Nm"), written_unit("lb-in"), written_unit("2 marks"), written_unit("s")
-    ('N*m', 'lbf*in', '', '')
+    >>> written_unit("Nm"), written_unit("lb-in"), written_unit("2 marks"), written_unit("s"), written_unit("P")
+    ('N*m', 'lbf*in', '', '', '')
     """
     try:
         known = _unit(text)
     except ValueError:
         return ""
-    of_time = not known or unit(known).dimension[:2] + unit(known).dimension[3:] == (0, 0, 0)
-    return "" if of_time else known
+    return known if known and unit(known).dimension in DIMENSIONS else ""
 
 
 def _pounds(found: re.Match[str]) -> str:

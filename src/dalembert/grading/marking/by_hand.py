@@ -61,7 +61,7 @@ def read_figure(one: Given, sheet: StudentSheet, names: FigureNames) -> ReadFigu
     try:
         answers = []
         for reading in w.readings or (None,):
-            keys = one.keys | {"value": with_units(reading, written_unit(one.unit))}
+            keys = one.keys | {"value": with_units(reading, written_unit(one.unit) or one.unit)}
             answers.append(answer_of(with_size(keys) if one.column else keys))
     except ModelError as error:
         return ReadFigure((), str(error.at_line(*where)), cell, where)

@@ -112,13 +112,14 @@ def _of_table(path: Path, names: FigureNames, given: Mapping[str, str]) -> Itera
     except ModelError as error:
         raise error.at_line(str(path), 1) from None
     comma = decimal_comma(text for row in rows for head, text in row.cells.items() if head in columns.figures)
+    units = {h: written_unit(rows[0].units.get(h, "")) or unit_of(h) for h in columns.figures}
     for row in rows:
         student = (
             " ".join(row.cells[head] for head in columns.student if head in row.cells) or f"row {row.line}"
         )
         variant = row.cells.get(columns.variant, "") if columns.variant else ""
         figures = [
-            Given(keys | {"value": row.cells[head]}, row.line, head, row.units.get(head) or unit_of(head))
+            Given(keys | {"value": row.cells[head]}, row.line, head, units[head])
             for head, keys in columns.figures.items()
             if head in row.cells
         ]
@@ -167,5 +168,5 @@ def _joined(figures: list[Given], names: FigureNames) -> Iterator[Given]:
 
 def _in_unit(one: Given) -> str:
     """The cell of a figure with the unit of its column, if it is a number alone."""
-    text, unit = str(one.keys["value"]), written_unit(one.unit)
+    text, unit = str(one.keys["value"]), one.unit
     return f"{text} {unit}".rstrip() if re.fullmatch(NUMBER, text) else text
