@@ -357,7 +357,7 @@ def test_the_formula_changes_where_euler_is_half_the_yield_stress() -> None:
         assert b.critical == pytest.approx(euler if share > 1 else short, rel=1e-9)
         assert b.slenderness == pytest.approx(400, rel=1e-9)
         assert (b.slenderness < PI * np.sqrt(2 * 210e9 / (limit * share))) == (share < 1)
-        assert b.critical <= euler
+        assert b.critical <= euler * (1 + 1e-12)  # equal to rounding above the change
         assert b.critical < area * limit * share
 
 

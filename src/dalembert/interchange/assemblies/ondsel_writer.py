@@ -156,6 +156,8 @@ def _mass(text: AssemblyText, link: LinkPart) -> None:
 
 EQUAL = 1e-9
 """Difference of two principal moments, as part of the largest, below which they are equal."""
+ROUNDING = 1e-12
+"""Component of an axis that is 0."""
 
 
 def principal_inertia(link: LinkPart) -> tuple[Array, Array]:
@@ -171,7 +173,8 @@ def principal_inertia(link: LinkPart) -> tuple[Array, Array]:
         left = (np.eye(3) - out @ out.T) @ same @ same.T
         size = np.linalg.norm(left, axis=0)
         k = first_largest(size)
-        out = np.column_stack([out, left[:, k] / size[k]])
+        axis = left[:, k] / size[k]
+        out = np.column_stack([out, np.where(np.abs(axis) < ROUNDING, 0.0, axis)])
     return moments, out * [1.0, 1.0, np.sign(np.linalg.det(out))]
 
 
