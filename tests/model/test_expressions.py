@@ -142,7 +142,8 @@ NAMED = {"r": LENGTH, "F": FORCE, "a": ANGLE, "phi": EITHER, "n": (0, 0, 0, 0), 
 DIMENSIONS: dict[str, tuple[float, float, float, float | None] | str] = {
     "F/r": (0, 1, -2, 0), "r*phi": (1, 0, 0, None), "phi/a": EITHER, "T^-2": (0, 0, -2, 0),
     "sqrt(r^2)": LENGTH, "(r^0.1*r^0.2)^10": (3, 0, 0, 0), "r^0.9995": (0.9995, 0, 0, 0), "sqrt(a)": (0, 0, 0, 0.5),
-    "r*a + r": LENGTH, "r + r*phi": LENGTH, "phi + a": ANGLE, "a - phi": ANGLE, "abs(r)": LENGTH,
+    "r*a + r": (1, 0, 0, None), "r + r*a": (1, 0, 0, None), "r + r*phi": LENGTH,
+    "phi + a": ANGLE, "a - phi": ANGLE, "abs(r)": LENGTH,
     "0 + r": LENGTH, "r - 0": LENGTH, "max(0, r)": LENGTH, "(r < 2*r)": (0, 0, 0, 0),
     "atan2(r, 2*r)": ANGLE, "acos(r/r)": ANGLE, "sin(a)": (0, 0, 0, 0), "exp(n)": (0, 0, 0, 0),
     "sign(F)": (0, 0, 0, 0), "20*time + 1": EITHER, "min(1, 20*time)": EITHER, "cos(3*time)": (0, 0, 0, 0),
@@ -169,6 +170,17 @@ def test_the_dimension_of_an_expression(text: str) -> None:
         with pytest.raises(ModelError) as caught:
             dimension(tree, NAMED | {"time": (0, 0, 1, 0)})
         assert str(caught.value) == f"'{text}' cannot be evaluated: {expected}"
+
+
+@pytest.mark.parametrize("text", ["w + v/r", "v/r + w"])
+def test_an_angular_speed_and_a_speed_over_a_radius_add_in_either_order(text: str) -> None:
+    m = loads(f"""
+parameters: {{v: 2 m/s, r: 0.1 m, w: 3 rad/s}}
+links: {{ground: {{points: {{O: [0, 0]}}}}, bar: {{points: {{O: [0, 0]}}}}}}
+joints: {{O: {{type: pin, links: [ground, bar]}}}}
+drives: {{O: {{position: 0, speed: {text}}}}}
+""")
+    assert m.drives["O"].speed == pytest.approx(23, rel=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 A dimension is the powers of length, mass, time and angle. The angle of `pi` and of a turning drive is open (None):
 `pi/4` is a number or an angle, depending on where it is used. In a product of other quantities the angle does not
-count, so that `theta*r` is a length. A bare 0 has every dimension.
+count, so that `theta*r` is a length, and `omega + v/r` an angular speed. A bare 0 has every dimension.
 """
 
 from __future__ import annotations
@@ -95,8 +95,10 @@ def _common(tree: Apply, a: Powers | None, b: Powers | None) -> Powers | None:
     if a[:3] == b[:3]:
         if a[3] == b[3] or b[3] is None:
             return a
-        if a[3] is None or any(a[:3]):
+        if a[3] is None:
             return b
+        if any(a[:3]):
+            return (*a[:3], None)
     if any(not any(x[:3]) for x in (a, b)) and any(map(_of_seconds, tree.arguments, (a, b))):
         return EITHER
     first, second = (
