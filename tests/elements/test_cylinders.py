@@ -336,4 +336,7 @@ def test_a_cylinder_shorter_than_its_barrel_is_a_column_of_its_section(ends: tup
     pushes = c.force > 0
     assert c.safety[pushes] == pytest.approx((c.critical / c.force)[pushes], rel=1e-12)
     assert np.isinf(c.safety[~pushes]).all()
+    idle = da.statics(da.loads(text.replace("mass: 320, center: [1600, 0]", "mass: 0"))).cylinder("C")
+    assert not idle.force.any()
+    assert np.isinf(idle.safety).all()
     assert critical_load(0.0, 2.0, barrel, rod, ends) == euler(2.0, rod, ends)

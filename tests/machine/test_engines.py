@@ -65,6 +65,8 @@ def test_firing_orders_set_throws_and_gas() -> None:
 def test_the_text_has_both_series() -> None:
     said = str(da.shaking(da.dynamics(da.in_line_engine())))
     assert "4 cylinders, by the book's two harmonics: its force is off by 4.61 %" in said.replace("\n", " ")
+    one = str(da.shaking(da.dynamics(da.slider_crank())))
+    assert "1 cylinder, by the book's two harmonics: its force is off by 0.51 %" in one.replace("\n", " ")
 
 
 def test_a_couple_needs_a_place() -> None:
