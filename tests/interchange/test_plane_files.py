@@ -56,7 +56,8 @@ def test_both_files_of_the_first_pmks_say_the_same(name: str) -> None:
     r = da.kinematics(m)
     assert r.point("coupler", "J3")[0] == pytest.approx([400, 480], abs=1e-9)
     assert r.point("coupler", "J5")[0] == pytest.approx([500, 125], abs=1e-9)
-    assert len(m.joints) == 4
+    assert [joint.links[0] for joint in m.joints.values()] == ["ground", "input", "coupler", "ground"]
+    assert m.points("output")["J4"] == pytest.approx([0, 0]), "a link begins on the ground"
 
 
 @pytest.mark.parametrize("name", ["fourbar.json", "fourbar_long.json", "slider_crank.json"])

@@ -257,3 +257,29 @@ def test_a_process_that_ended_is_said() -> None:
     asked = Question("data", "", "yaml", "m.yaml")
     told = json.loads(Ended().ask(asked))
     assert told["missing"] == "the solver ended: out of memory; use fewer positions or a smaller mechanism"
+
+
+SHORT = """
+links:
+  ground: {points: {O: [0, 0], C: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [2, 0]}}
+  rod: {points: {A: [0, 0], B: [1, 0]}}
+  block: {points: {B: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, block]}
+  C: {type: slider, links: [ground, block], at: [C, B]}
+drives: {O: {position: [90, 20, 10]}}
+loads: {F: {type: force, on: block, at: B, value: [3, 0]}, T: {type: couple, on: crank, value: 2}}
+assembly: {rod: -30}
+"""
+
+
+def test_shares_are_those_of_the_first_position_that_is_solved() -> None:
+    """At 90 deg the rod is too short."""
+    r = da.statics(loads(SHORT))
+    assert r.status == ("not_assembled", "ok", "ok")
+    effort = shares(r)["rows"][0]
+    assert effort["sum"] == pytest.approx(r.effort("O")[1])
+    assert -2.0 in effort["values"]
