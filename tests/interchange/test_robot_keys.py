@@ -302,3 +302,28 @@ def test_a_tendon_of_one_length_is_a_spring(length: str, kept: float | None, tmp
         {} if kept is None else {"t": kept}
     )
     assert any("tendon 't'" in note for note in lost) == (kept is None)
+
+
+PAIRS_OF_SITES = """<mujoco><worldbody>
+<body name='a'><joint name='ja' axis='0 1 0'/><geom size='.1'/>
+ <site name='a1' pos='1 0 0'/><site name='a2' pos='1 {} 0'/></body>
+<body name='b' pos='2 0 0'><joint name='jb' axis='0 1 0'/><geom size='.1'/>
+ <site name='b1' pos='-1 0 0'/><site name='b2' pos='-1 {} 0'/></body>
+</worldbody><equality><connect name='h.1' site1='a1' site2='b1'/><connect name='h.2' site1='a2' site2='b2'/></equality>
+</mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("apart", "kinds"),
+    [
+        ((1, 1), {"h_1": "revolute"}),
+        ((1, 1.5), {"h_1": "spherical", "h_2": "spherical"}),
+        ((1.5, 1), {"h_1": "spherical", "h_2": "spherical"}),
+    ],
+)
+def test_two_balls_as_far_apart_on_both_bodies_are_a_hinge(
+    apart: tuple[float, float], kinds: dict[str, str], tmp_path: Path
+) -> None:
+    (tmp_path / "x.xml").write_text(PAIRS_OF_SITES.format(*apart), encoding="utf-8")
+    m, _ = read_foreign(tmp_path / "x.xml")
+    assert {name: joint.type for name, joint in m.joints.items() if name[0] == "h"} == kinds
