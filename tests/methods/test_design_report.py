@@ -18,8 +18,9 @@ from dalembert.reports.design.design_report import PARTS, design_sheet, parts_of
 from dalembert.reports.design.motion_part import motion_part
 from dalembert.reports.design.power_parts import balance_part, motor_part
 from dalembert.reports.design.strength_parts import member_part
-from dalembert.reports.design.verdict import DesignContext, DesignVerdict, judged
-from dalembert.reports.sheet import Drawings, Heading, SheetTable
+from dalembert.reports.design.summary_page import summary
+from dalembert.reports.design.verdict import DesignContext, DesignPart, DesignVerdict, judged
+from dalembert.reports.sheet import Drawings, Heading, Paragraph, ReportSheet, SheetTable
 from tests.tiers import tiers
 
 BUNDLED = cases() | examples()
@@ -83,6 +84,26 @@ def test_the_summary_counts_what_is_exceeded() -> None:
     )  # the worst position of a joint is that of its largest force
     at = f"{math.degrees(r.drive_position('O2')[k]):.0f}° (no. {k + 1})"
     assert at in next(line for line in text.splitlines() if line.startswith("reaction.B "))
+
+
+@pytest.mark.parametrize(
+    ("margins", "said"),
+    [
+        ([2.0, 1.0, 3.0], "All 3 limits that can be checked are met."),
+        ([1.0], "The one limit that can be checked is met."),
+        ([math.nan], "No limit can be checked. 1 item is not judged; it is named with the reason."),
+        ([0.5, 2.0], "1 of 2 limits is exceeded."),
+        (
+            [0.5, 0.9, 2.0, math.nan, math.nan],
+            "2 of 3 limits are exceeded. 2 items are not judged; they are named with the reason.",
+        ),
+    ],
+)
+def test_the_verdict_of_all_in_one_sentence(margins: list[float], said: str) -> None:
+    part, sheet = DesignPart("Strength"), ReportSheet("t")
+    part.verdicts += [judged(f"item {k}", margin) for k, margin in enumerate(margins)]
+    summary(sheet, DesignContext(da.dynamics(da.four_bar(positions=3)), 0, da.Notation()), [part])
+    assert sheet.blocks[1] == Paragraph(said)
 
 
 @pytest.mark.parametrize("sense", [1, -1])

@@ -37,12 +37,17 @@ def _sections(parts: Sequence[DesignPart]) -> list[tuple[str, list[DesignPart]]]
 def _in_one_sentence(parts: Sequence[DesignPart]) -> str:
     verdicts = [v for part in parts for v in part.verdicts]
     count = {state: sum(v.state == state for v in verdicts) for state in ("ok", "exceeded", "not judged")}
-    first = (
-        f"{count['exceeded']} of {count['ok'] + count['exceeded']} limits are exceeded."
-        if count["exceeded"]
-        else f"All {count['ok']} limits that can be checked are met."
-    )
-    return f"{first} {count['not judged']} items are not judged; they are named with the reason."
+    limits, rest = count["ok"] + count["exceeded"], count["not judged"]
+    first = f"All {limits} limits that can be checked are met."
+    if limits < 2:
+        first = "The one limit that can be checked is met." if limits else "No limit can be checked."
+    if count["exceeded"]:
+        first = (
+            f"{count['exceeded']} of {limits} limits {'is' if count['exceeded'] == 1 else 'are'} exceeded."
+        )
+    if rest == 1:
+        return f"{first} 1 item is not judged; it is named with the reason."
+    return f"{first} {rest} items are not judged; they are named with the reason." if rest else first
 
 
 def _row(title: str, verdicts: Sequence[DesignVerdict]) -> list[str]:
