@@ -113,3 +113,12 @@ def test_what_is_not_written() -> None:
     assert lost[0] == "load 'F_P' (force): only gravity is written to .asmt"
     with pytest.raises(ModelError, match="gear 'sun_mesh': the gears of OndselSolver have no teeth"):
         foreign_bytes(da.load(examples()["gear_train"]), "x.asmt")
+
+
+@pytest.mark.parametrize("speed", [10.0, -10.0, 0.0])
+def test_a_simulation_lasts_a_turn_in_either_sense_or_a_second(speed: float) -> None:
+    m = da.four_bar(positions=1).with_values({"drives.O2.speed": speed})
+    lines = [line.strip() for line in foreign_bytes(m, "x.asmt")[0].decode().splitlines()]
+    ends = [float(lines[lines.index(key) + 1]) for key in ("tstart", "tend", "hmax")]
+    turn = 2 * np.pi / 10 if speed else 1.0
+    assert ends == pytest.approx([0, turn, turn])

@@ -205,3 +205,20 @@ def test_what_is_no_linkage_is_refused(text: str, tmp_path: Path) -> None:
     (tmp_path / "x.pmks").write_text(text, encoding="utf-8")
     with pytest.raises(ModelError, match=r"x\.pmks:1: "):
         read_foreign(tmp_path / "x.pmks")
+
+
+@pytest.mark.parametrize("off", [0.0, 30.0, -30.0])
+@pytest.mark.parametrize("back", [False, True])
+def test_a_slide_of_a_skeleton_holds_the_pin_that_is_on_it(off: float, back: bool, tmp_path: Path) -> None:
+    """And no other, on whichever side of the line this lies."""
+    ezdxf = pytest.importorskip("ezdxf")
+    drawing = ezdxf.new(units=4)
+    space = drawing.modelspace()
+    space.add_line((0, 0), (50, 0), {"layer": "crank"})
+    space.add_line((50, 0), (200, 0), {"layer": "rod"})
+    space.add_circle((0, 0), 5, {"layer": "GROUND"})
+    ends = ((100, off), (300, off))
+    space.add_line(*(ends[::-1] if back else ends), dxfattribs={"layer": "SLIDE"})
+    drawing.saveas(tmp_path / "x.dxf")
+    m, _ = read_foreign(tmp_path / "x.dxf")
+    assert [joint.type for joint in m.joints.values()].count("slider") == (off == 0)
