@@ -308,7 +308,7 @@ class _Marker:
 
 
 def _place(variant: ExamVariant, at: object) -> object:
-    """The number of a position that is named by the value of a drive, where the problem has one there."""
+    """The number of a position that is named by the value of a drive, if the problem has such a one."""
     at = None if at is None else place(str(at))
     if not isinstance(at, str) or variant.problem is None:
         return at

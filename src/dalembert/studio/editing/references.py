@@ -115,7 +115,7 @@ def _in_expression(said: str, kind: str, old: str, new: str) -> str:
 
 
 def _kept_points(text: str, form: str, index: Places, joint: str) -> Iterator[Change]:
-    """A joint without ``at`` that names its points by its name gets an ``at``; a band has points of its own."""
+    """A joint without ``at`` that names its points by its name gets an ``at``; a band names each of its points."""
     keys = {path[2] for path in index if path[:2] == ("joints", joint) and len(path) == 3}
     if "links" in keys and not keys & {"at", "around"}:
         yield _with_at(text, form, index, joint, value_text(joint, form))
