@@ -157,7 +157,7 @@ def test_no_coefficient_is_no_friction(seed: int) -> None:
         )
 
 
-@over(6, 200)
+@over(4, 200)
 def test_small_coefficients_go_to_no_friction(seed: int) -> None:
     """The change of the efforts is linear in a small coefficient: halving it halves the change."""
     _, changes = small_changes(nth(seed, small_coefficients_show))

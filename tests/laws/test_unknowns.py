@@ -58,7 +58,7 @@ def undamped(kind: str, seed: int) -> list[str]:
 SOME = {kind: lru_cache(maxsize=512)(partial(undamped, kind)) for kind in ("pin", "slider")}
 
 
-@over(6, 200)
+@over(4, 200)
 @pytest.mark.parametrize("kind", ["pin", "slider"])
 def test_a_doubled_joint_is_redundant_and_changes_nothing_else(seed: int, kind: str) -> None:
     case = random_case(found := nth(seed, SOME[kind]))

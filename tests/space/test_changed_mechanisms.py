@@ -39,7 +39,7 @@ def retyped(made: dict[str, Any], seed: int) -> dict[str, Any]:
     return made
 
 
-@pytest.mark.parametrize("seed", tiers(range(1, 25), [0, *range(25, 150)]))
+@pytest.mark.parametrize("seed", tiers(range(1, 19), [0, *range(19, 150)]))
 def test_a_changed_tree_is_refused_or_answered_honestly(seed: int) -> None:
     check(retyped(mutated(bases()[seed % len(bases())], seed), seed))
 
