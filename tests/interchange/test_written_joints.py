@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from dalembert.interchange.file_formats import foreign_bytes, read_foreign
 from dalembert.interchange.link_graph import inertia_matrix
 from tests.interchange.test_ondsel import SCREW
 from tests.interchange.written_files import largest_difference, read_back
+from tests.space.test_gears import pair, wheel
 
 Z, Y = [0, 0, 1], [0, 1, 0]
 PINS = {"i": {"z": Z}, "j": {"z": Y}}
@@ -343,3 +345,16 @@ def test_more_elements_than_a_file_may_have_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ModelError) as refused:
         read_foreign(tmp_path / "x.sdf")
     assert str(refused.value) == f"{tmp_path / 'x.sdf'}:100000: the file has too many elements; split it"
+
+
+@pytest.mark.parametrize("shaft", [90.0, 60.0])
+def test_bevel_wheels_have_no_ratio_of_parallel_hinges(shaft: float) -> None:
+    """The wheels turn about z and about an axis at an angle to it, and touch at the circle of both."""
+    turned = math.radians(shaft)
+    cone = math.atan2(math.sin(turned), 0.07 / 0.04 + math.cos(turned))
+    contact = np.array([0.04, 0.0, -0.04 / math.tan(cone)])
+    axis = np.array([math.sin(turned), 0.0, -math.cos(turned)])
+    first = wheel([0, 0, float(contact[2])], Z, 0.04)
+    m = pair(first, wheel((contact @ axis * axis).tolist(), axis.tolist(), 0.07), [0, 0, 1])
+    with pytest.raises(da.ModelError, match="gear 'G': its axes are not parallel; leave it out"):
+        foreign_bytes(m, "x.xml")

@@ -367,6 +367,7 @@ WRONG = {
     "[{of: [rod, piston], count: 3, phase: {crank: [0, 180]}}]": "count is 3, but a list has 2 values",
     "[{of: [rod, piston], phase: {crank: [90, 180]}}]": "a list begins with 90, and the original stays",
     "[{of: [rod, piston], phase: {rod: [0, 180]}}]": "'rod' is not a link outside the copies",
+    "[{of: [rod, piston], phase: {cranc: [0, 180]}}]": "'cranc' is not a link outside the copies; did you mean",
     "[{of: [rod, piston], phase: 180, count: 2}]": "180 does not say on which link",
     "[{of: [rod, piston], count: 2, phase: {crank: x}}]": "'x' is not an angle",
     "[{of: [rod, piston], count: 2, names: [b, c]}]": "1 names are needed",

@@ -180,6 +180,7 @@ def test_a_wrong_file_is_told_where_and_what(case: str) -> None:
         ({"r": "3 kg"}, "'3 kg' is a mass, but a length is needed"),
         ({"rr": 3}, "unknown parameter 'rr'; choose among r, "),
         ({"parameters.x": 3}, "names no parameter's value"),
+        ({"parameters": 3}, "the path 'parameters' names no parameter's value"),
         ({"rho": -1.0}, "links.crank: mass: -0.045 is negative"),
         ({"r": "l/0"}, "has no finite value"),
         ({"bore": "area/2"}, "it follows from itself: area from bore from area"),
