@@ -76,6 +76,16 @@ def test_json_reads_back(name: str, tmp_path: Path) -> None:
         assert [*record[a.ROWS][0]] == [head.partition(" [")[0] for head in heads[1:]]
 
 
+def test_names_stand_in_json_as_they_are_written(tmp_path: Path) -> None:
+    """In the title and in the rows, so that a text editor finds them."""
+    tree = da.four_bar().to_tree() | {"title": "Prüfstand"}
+    tree["joints"]["Ä"] = tree["joints"].pop("A") | {"at": "A"}
+    da.statics(da.mechanism(tree)).save(tmp_path / "a.json")
+    text = (tmp_path / "a.json").read_text(encoding="utf-8")
+    assert all(word in text for word in ('"title": "Prüfstand"', '"Ä"'))
+    assert "\\u" not in text
+
+
 @pytest.mark.parametrize("name", [name for name in MADE if name not in ("ClassMarks", "System")])
 def test_labelled_arrays_read_back(name: str, tmp_path: Path) -> None:
     a = made(name)

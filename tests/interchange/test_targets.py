@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -176,6 +177,8 @@ def test_a_slide_is_a_length_and_its_effort_a_force() -> None:
     )
     assert '<Real unit="m" ' in text[position : position + 200]
     assert '<Real unit="N"/>' in text[effort : effort + 250]
+    bases = dict(re.findall(r'<Unit name="([^"]+)">\s*<BaseUnit ([^/]*?)/>', text))
+    assert (bases["m"].strip(), bases["N"].strip()) == ('m="1"', 'm="1" kg="1" s="-2"')
     assert lost == ["the motion: position, speed and acceleration of the drives are inputs"]
     assert content == foreign_bytes(da.load(examples()["bucket"]), "x.fmu")[0]
 
