@@ -51,7 +51,7 @@ BUILD = ROOT / "build" / "mutants"
 MEASURED, VERDICTS, NOW = BUILD / "tests.json", BUILD / "verdicts.jsonl", "now-"
 HITS = bytearray(100_000)
 ALIVE, KILLED = 0, 1
-INSTANCES, SPENT = 6, 8.0
+INSTANCES, SPENT = 6, 30.0
 """Of every test instances are measured and run in an order drawn by their names: so many, and then more until they have
 taken so many seconds of the processor. A long written list of quick rows is whole; a law on seeds is a sample."""
 
