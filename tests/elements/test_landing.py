@@ -397,3 +397,36 @@ def test_a_block_that_tips_where_its_guide_rubs_is_not_followed() -> None:
         "stopped at 0.06 s: S tips, and its guide has friction, which is not followed on one end; write two slots with "
         "contact: pushes and friction, one at each end"
     )
+
+
+WHEEL = """
+links:
+  ground: {points: {W: [0, 0]}}
+  wheel: {points: {W: [0, 0]}, mass: 1 kg}
+joints:
+  W: {type: rolling, links: [ground, wheel], at: W, KEYS}
+drives: {W: {position: 0}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("keys", "says"),
+    [
+        (
+            "radii: [0.1, 0.1], internal: true",
+            "a wheel is as large as the internal wheel around it; make one of",
+        ),
+        (
+            "radius: 0.1, radii: [0.3, 0.1]",
+            "its size is not clear; give either radius, for a wheel on a line",
+        ),
+        ("internal: true", "its size is not clear; give either radius"),
+        ("radius: 0.1, internal: true", "a wheel on a line cannot be internal; leave it out"),
+        ("radii: [0.3, 0.1], direction: 30", "a wheel on a circle has no direction; leave it out"),
+    ],
+)
+def test_a_wheel_of_no_size_is_refused_at_its_line(keys: str, says: str) -> None:
+    with pytest.raises(ModelError) as refused:
+        da.loads(WHEEL.replace("KEYS", keys), name="wheel.yaml")
+    assert str(refused.value).startswith("wheel.yaml:6: ")
+    assert says in str(refused.value)

@@ -68,6 +68,8 @@ class Shoe(OnDrum):
     >>> shoe = Shoe(links=("drum", "lever"), at=("O", "Q"), radius=0.15, width=0.03, internal=True, to="126 deg")
     >>> [round(float(x), 4) for x in (*shoe.load_direction(1.0), shoe.friction_arm)]
     [-0.2377, -0.9713, 0.173]
+    >>> round(shoe.lining_area / (math.radians(126) * 0.15 * 0.03), 12)
+    1.0
     """
 
     type: Literal["shoe"] = "shoe"
