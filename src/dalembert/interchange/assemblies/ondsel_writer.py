@@ -18,6 +18,7 @@ from dalembert.interchange.joint_chains import split
 from dalembert.interchange.link_graph import Connection, DrivenFreedom, LinkGraph, LinkPart, number
 from dalembert.interchange.placements import placement
 from dalembert.model import GROUND
+from dalembert.printing import round_components
 
 KINDS = {
     "revolute": "RevoluteJoint",
@@ -156,8 +157,6 @@ def _mass(text: AssemblyText, link: LinkPart) -> None:
 
 EQUAL = 1e-9
 """Difference of two principal moments, as part of the largest, below which they are equal."""
-ROUNDING = 1e-12
-"""Component of an axis that is 0."""
 
 
 def principal_inertia(link: LinkPart) -> tuple[Array, Array]:
@@ -173,8 +172,7 @@ def principal_inertia(link: LinkPart) -> tuple[Array, Array]:
         left = (np.eye(3) - out @ out.T) @ same @ same.T
         size = np.linalg.norm(left, axis=0)
         k = first_largest(size)
-        axis = left[:, k] / size[k]
-        out = np.column_stack([out, np.where(np.abs(axis) < ROUNDING, 0.0, axis)])
+        out = np.column_stack([out, round_components(left[:, k] / size[k])])
     return moments, out * [1.0, 1.0, np.sign(np.linalg.det(out))]
 
 
