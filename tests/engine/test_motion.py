@@ -101,7 +101,8 @@ def test_structures_are_bounded_and_shared_by_threads(monkeypatch: pytest.Monkey
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(da.dynamics, made * 4))
     assert all(difference(r, alone[k % 4]) < 1e-10 for k, r in enumerate(found))
-    assert sum(map(structures._size, structures.STRUCTURES.found.values())) <= 1000
+    kept = structures.STRUCTURES
+    assert kept.size == sum(map(structures._size, kept.found.values())) <= 1000
 
 
 def test_residual_and_power_balance_would_show_a_wrong_program(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -206,13 +206,13 @@ def test_neighbours_of_random_mechanisms(seed: int) -> None:
     assert any(used)
 
 
-def test_what_is_asked_is_part_of_the_key() -> None:
+def test_what_is_asked_is_part_of_the_key(monkeypatch: pytest.MonkeyPatch) -> None:
     """Motion alone, statics and dynamics of one mechanism, in every order."""
     m = da.mechanism(YAML(typ="safe").load(CRANK))
     asked = {"motion": da.kinematics, "statics": da.statics, "dynamics": da.dynamics}
     careful = {name: asked[name](m, method="careful") for name in ("statics", "dynamics")}
     for order in permutations(asked):
-        structures.STRUCTURES.found.clear()
+        monkeypatch.setattr(structures, "STRUCTURES", structures.Structures())
         for name in order:
             found = asked[name](m)
             if name != "motion":

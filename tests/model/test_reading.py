@@ -22,6 +22,7 @@ from dalembert.model import (
     loads,
     mechanism,
 )
+from dalembert.model.files.model_files import read_text
 from tests.model.parts import FOUR_BAR
 
 IN, LBF = 0.0254, 4.4482216152605
@@ -135,6 +136,17 @@ def test_line_ends_and_byte_order_marks(break_: str, mark: str) -> None:
 
 def test_blank_sections_are_absent() -> None:
     assert loads("title:\nlinks: {a: {}}\njoints:\ndrives:\nloads:\n").loads == {}
+
+
+def test_who_changes_a_tree_changes_no_later_one() -> None:
+    """Short texts are parsed once: each reading has its own tree all the same."""
+    tree, source = read_text(FOUR_BAR)
+    tree["links"].clear()
+    tree["title"] = "another"
+    again, its = read_text(FOUR_BAR)
+    assert again["title"] == "Four-bar linkage, dynamic"
+    assert "crank" in again["links"]
+    assert source.line(("links",)) == its.line(("links",)) > 1
 
 
 def test_anchors_and_aliases() -> None:

@@ -62,7 +62,7 @@ class Structures:
     """Programs by structure, those used last; one lock for all threads."""
 
     def __init__(self) -> None:
-        self.lock, self.found = Lock(), OrderedDict[object, Kept]()
+        self.lock, self.found, self.size = Lock(), OrderedDict[object, Kept](), 0
 
     def get(self, key: object) -> tuple[bool, Kept]:
         with self.lock:
@@ -74,10 +74,10 @@ class Structures:
 
     def put(self, key: object, program: Kept) -> None:
         with self.lock:
+            self.size += _size(program) - (_size(self.found[key]) if key in self.found else 0)
             self.found[key] = program
-            size = sum(map(_size, self.found.values()))
-            while size > KEPT and len(self.found) > 1:
-                size -= _size(self.found.popitem(last=False)[1])
+            while self.size > KEPT and len(self.found) > 1:
+                self.size -= _size(self.found.popitem(last=False)[1])
 
 
 def _size(program: Kept) -> int:

@@ -7,6 +7,8 @@ keys are texts, equal keys are refused, and tags and second documents never come
 from __future__ import annotations
 
 import re
+from copy import deepcopy
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
@@ -19,6 +21,9 @@ if TYPE_CHECKING:
 
 DEEPEST, MOST = 30, 50_000
 """Levels of nesting and values of one file."""
+
+SHORT, KEPT = 20_000, 64
+"""Characters of a text whose tree is kept, as of a template that is solved again and again, and how many are."""
 
 MERGE = "<<"
 """The key that takes in another mapping."""
@@ -35,7 +40,14 @@ _FLOAT = re.compile(
 
 
 def read(text: str) -> tuple[object, dict[Path, int]]:
-    """The tree and the line of each path; raises ModelError with its `line`."""
+    """The tree and the line of each path; raises ModelError with its `line`. Short texts are parsed once."""
+    if len(text) > SHORT:
+        return _parse(text)
+    root, lines = _parsed(text)
+    return deepcopy(root), lines
+
+
+def _parse(text: str) -> tuple[object, dict[Path, int]]:
     from ruamel.yaml import YAML
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
@@ -56,6 +68,7 @@ def read(text: str) -> tuple[object, dict[Path, int]]:
     return builder.root, builder.lines
 
 
+_parsed = lru_cache(KEPT)(_parse)
 _LONG = re.compile(r"[!&*%][^\s,\[\]{}]{2000}")
 
 
