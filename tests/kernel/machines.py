@@ -185,5 +185,14 @@ def four_bar_tree(count: int = 24) -> dict[str, Any]:
     }
 
 
+def turning_arm() -> Any:
+    """An arm that turns evenly about a pin, without gravity."""
+    arm = {"points": {"O": [0, 0]}, "mass": 2, "center": [0.17, 0.05], "inertia": 0.01}
+    drive = {"position": {"from": "0 deg", "to": "355 deg", "count": 72}, "speed": "300 rpm"}
+    links = {"ground": {"points": {"O": [0, 0]}}, "arm": arm}
+    joints = {"O": {"type": "pin", "links": ["ground", "arm"]}}
+    return da.mechanism({"gravity": "none", "links": links, "joints": joints, "drives": {"O": drive}})
+
+
 def four_bar(count: int = 24) -> Any:
     return da.mechanism(four_bar_tree(count))

@@ -17,16 +17,17 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.batch.kernel_export import plain
-from dalembert.analysis.batch.over_positions import PARTS, reduce_positions
+from dalembert.analysis.batch.over_positions import PARTS, reduce_positions, slope
+from dalembert.arrays import Array
 from dalembert.kernel import memory, parallel_runs
-from dalembert.kernel.emit import cuda, llvm_text
+from dalembert.kernel.emit import c_text, cuda, llvm_text
 from dalembert.kernel.emit.machine_code import compile_module, host_lanes
 from dalembert.kernel.emit.reductions import width
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.memory import aligned_array, available
 from dalembert.kernel.program import Program
 from tests.kernel.comparing import changed, every_number
-from tests.kernel.machines import KINDS, ROUGH, four_bar
+from tests.kernel.machines import KINDS, ROUGH, four_bar, turning_arm
 from tests.tiers import crossed
 
 VARY = ["links.crank.points.A", "links.rocker.points.B", "links.coupler.mass", "drives.O2.speed"]
@@ -83,6 +84,60 @@ def test_inverses_are_good_to_two_units_in_the_last_place(lanes: int) -> None:
     right = np.isfinite(expected)
     assert not np.isfinite(found[~right]).any()
     assert (np.abs(found[right] / expected[right] - 1) <= 4.5e-16).all()
+
+
+TIED = [-3.0, -1.0, 2.0, 5.0, -5.0, 4.0, 5.0, -5.0, 1.0, 0.5, -4.0]
+"""The largest, the least and the largest of magnitude occur more than once: first at 3, 4 and 3, counted from 0."""
+
+
+@pytest.mark.parametrize(
+    ("values", "extremes"),
+    [
+        (np.array(TIED), {"peak": (5.0, 3), "min": (-5.0, 4), "max": (5.0, 3)}),
+        (np.array(TIED) * (1 + 1e-14 * np.arange(11)), {"peak": (5.0, 3), "min": (-5.0, 4), "max": (5.0, 3)}),
+        (np.array(TIED) * (1 + 1e-9 * np.arange(11)), {"peak": (5.0, 7), "min": (-5.0, 7), "max": (5.0, 6)}),
+        (np.zeros(7), {"peak": (0.0, 0), "min": (0.0, 0), "max": (0.0, 0)}),
+        (-np.arange(9.0), {"peak": (8.0, 8), "min": (-8.0, 8), "max": (0.0, 0)}),
+        (np.array([-2.0, -7.0, -2.0]), {"peak": (7.0, 1), "min": (-7.0, 1), "max": (-2.0, 0)}),
+    ],
+    ids=["equal", "equal within rounding", "beyond rounding", "zeros", "falling", "below zero"],
+)
+def test_the_place_of_an_extreme_is_the_first_of_equal_ones(
+    values: Array, extremes: dict[str, tuple[float, int]], tmp_path: Path
+) -> None:
+    """In any number of lanes, as C for a card and in numpy; the extreme itself is the largest to its last digit."""
+    graph = Graph()
+    program = Program(graph, (graph.input("channel", "x", np.ones(1)),))
+    slots = tuple((0, "arg" + p) for p in extremes)
+    exact = {"peak": np.abs(values).max(), "min": values.min(), "max": values.max()}
+    wanted = [[exact[p], place] for p, (_, place) in extremes.items()]
+    assert [exact[p] for p in extremes] == pytest.approx([about for about, _ in extremes.values()], rel=1e-7)
+    out, code = np.empty(6), np.empty(1, np.uint8)
+    for lanes in (1, 2, 4, 8, 16):
+        path, blocks = parallel_runs.path_array(values[:, None], np.zeros(0), lanes, weighted=False)
+        run = compile_module(llvm_text.grid(program, lanes, slots), lanes)
+        run(np.zeros(1), path, out, code, (0, 1, 1, blocks))
+        assert out.reshape(-1, 2).tolist() == wanted, lanes
+    card = shared(tmp_path, c_text.emit_reduced(program, slots), "card")
+    given = [pointer(a) for a in (np.zeros(1), values, np.zeros(1), out, code)]
+    card.reduced(*given, *map(ctypes.c_longlong, (0, 1, 1, len(values))))
+    assert out.reshape(-1, 2).tolist() == wanted
+    assert reduce_positions("argpeak", values) == extremes["peak"][1]
+    marks = np.arange(len(values), dtype=float)[:, None, None]
+    ends = slope("envelope", values[:, None], marks)  # derivatives that are the places
+    assert ends.ravel().tolist() == [extremes["min"][1], extremes["max"][1]]
+
+
+def test_a_peak_that_is_the_same_everywhere_is_at_the_first_position() -> None:
+    """The reaction at the pin of an arm that turns evenly is m r w^2 in every position, and its rounding is not."""
+    r = da.compile(
+        turning_arm(), ["links.arm.center", "links.arm.mass"], ["reaction.O.magnitude"], reduce="argpeak"
+    )
+    values = r.nominal + np.random.default_rng(1).normal(size=(20, 3)) * 0.02
+    assert r(values).value("reaction.O.magnitude").tolist() == [0.0] * 20
+    general = [da.dynamics(r.mechanism.with_values(dict(zip(r.numbers, v, strict=True)))) for v in values[:3]]
+    places = [reduce_positions("argpeak", g["reaction.O.magnitude"]) for g in general]
+    assert places == [0.0] * 3
 
 
 @pytest.mark.parametrize("positions", [1, 20, 33])

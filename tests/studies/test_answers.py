@@ -15,6 +15,7 @@ from dalembert.studies import Study
 from dalembert.studies.limits import read_limit
 from dalembert.studies.output.study_text import summary
 from dalembert.studies.study_result import failures
+from tests.kernel.machines import turning_arm
 
 ARM = """
 units: {angle: rad}
@@ -255,6 +256,13 @@ def test_a_peak_that_jumps_between_positions_is_said(other: str, places: str) ->
     s = da.study(m, {"one": "± 20 %", "other": "± 20 %"}, ["effort.O"])
     assert s.contributions("effort.O").note.startswith(f"the peak jumps between positions {places} (in ")
     assert 'use by="sobol"' in s.contributions("effort.O").note
+
+
+def test_a_peak_that_is_the_same_everywhere_does_not_jump() -> None:
+    """The pin's reaction of an arm that turns evenly: which position is largest by its last digit differs."""
+    numbers = {"links.arm.mass": "± 2 %", "links.arm.center.0": "± 2 %"}
+    of = "reaction.O.magnitude"
+    assert da.study(turning_arm(), numbers, [of]).contributions(of).note == ""
 
 
 def test_a_peak_that_moves_to_the_next_position_does_not_jump() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.errors import ModelError
-from dalembert.kernel.emit.reductions import PLACED
+from dalembert.kernel.emit.reductions import PLACED, TIE
 
 PARTS: dict[str, tuple[str, ...]] = {
     "peak": ("peak",),
@@ -122,9 +122,15 @@ def refined_slope(reduce: str, values: Array, rates: Array, inner: Flags) -> Arr
 def _refined(reduce: str, values: Array, cycle: bool) -> tuple[Ints, Array, Flags]:
     """Places (3, component) about the peaks of values (position, component), the values at them, and which are
     inner."""
-    peaks = np.nan_to_num(np.abs(values)).argmax(axis=0)
+    peaks = _first_largest(np.nan_to_num(np.abs(values)))
     three, inner = neighbours(peaks, len(values), cycle)
     return three, values[three, np.arange(values.shape[1])], inner
+
+
+def _first_largest(values: Array) -> Ints:
+    """Places (...) of the largest of values (position, ...): of equal ones the first, as in the kernel."""
+    largest = values.max(axis=0)
+    return np.asarray((values >= largest - TIE * np.abs(largest)).argmax(axis=0))
 
 
 def reduce_positions(reduce: str, values: Array, cycle: bool = False) -> Array:
@@ -140,7 +146,7 @@ def reduce_positions(reduce: str, values: Array, cycle: bool = False) -> Array:
     if reduce == "peak":
         return np.asarray(size.max(axis=0))
     if reduce == "argpeak":
-        return np.asarray(size.argmax(axis=0).astype(float))
+        return _first_largest(size).astype(float)
     if reduce == "envelope":
         return np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     if reduce == "mean":
@@ -213,8 +219,6 @@ def slope(reduce: str, values: Array, rates: Array, cycle: bool = False) -> Arra
             return np.asarray(((values / size)[..., None] ** (POWER[reduce] - 1) * rates).mean(axis=0))
     each = np.arange(values.shape[1])
     if reduce == "envelope":
-        return np.stack(
-            [rates[place, each] for place in (values.argmin(axis=0), values.argmax(axis=0))], axis=1
-        )
-    place = np.abs(values).argmax(axis=0)
+        return np.stack([rates[_first_largest(end), each] for end in (-values, values)], axis=1)
+    place = _first_largest(np.abs(values))
     return np.asarray(np.sign(values[place, each])[:, None] * rates[place, each])

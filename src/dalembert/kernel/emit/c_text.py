@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from dalembert.kernel.emit.reductions import PLACED, SUMS, Slots, width
+from dalembert.kernel.emit.reductions import FARTHEST, PLACED, SUMS, TIE, Slots, width
 from dalembert.kernel.graph import Node
 from dalembert.kernel.program import CODES, Program
 
@@ -155,7 +155,7 @@ def emit_reduced(program: Program, slots: Slots) -> str:
     starts, updates, stores, slot = [], [], [], 0
     for s, (k, p) in enumerate(slots):
         x = name(program.outputs[k])
-        starts.append(f"    REAL a{s} = {_start(p)}, w{s} = 0;")
+        starts.append(f"    REAL a{s} = {_start(p)};")
         if p in SUMS:
             power = x
             for _ in range(SUMS[p]):
@@ -164,7 +164,13 @@ def emit_reduced(program: Program, slots: Slots) -> str:
         else:
             size = f"fabs({x})" if p.endswith("peak") else x
             how = "<" if p.endswith("min") else ">"
-            updates.append(f"      if ({size} {how} a{s}) {{ a{s} = {size}; w{s} = (REAL)p; }}")
+            updates.append(f"      if ({size} {how} a{s}) a{s} = {size};")
+            if p in PLACED:
+                more = f"h{s} - {size}" if p.endswith("min") else f"{size} - h{s}"
+                starts.append(f"    REAL h{s} = {FARTHEST[p[3:]]!r}, w{s} = 0;")
+                updates.append(
+                    f"      if ({more} > {TIE!r} * fabs(h{s})) {{ h{s} = {size}; w{s} = (REAL)p; }}"
+                )
         stores.append(f"    out[d * {width(slots)} + {slot}] = a{s};")
         slot += 1
         if p in PLACED:

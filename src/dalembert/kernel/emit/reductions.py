@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import sys
+
 from dalembert.kernel.emit.llvm_builder import ModuleText, number
 from dalembert.kernel.emit.marks import bits, latch, some
 from dalembert.kernel.program import CODES, Program
 
 PLACED = ("argpeak", "argmin", "argmax")
-"""Reductions with the position, which follows as a second number."""
+"""Reductions with the position, which is a second number: of equal values, whatever their rounding, the first."""
+
+TIE = 1e-12
+"""Share of a value within which another is equal: rounding, and less than a curve falls beside its peak in one step of
+a million."""
 
 SUMS = {"sum": 0, "square": 1, "power8": 3}
 """Sums of the values to the powers 1, 2, 8: number of squarings for each."""
 
 _START = {"min": float("inf"), "max": float("-inf"), "peak": -1.0}
+FARTHEST = {"min": sys.float_info.max, "max": -sys.float_info.max, "peak": -1.0}
+"""What is there before the first position; the value at the place that is kept, which is subtracted, is finite."""
 
 Slots = tuple[tuple[int, str], ...]
 """Output index and reduction of each slot: peak, min, max, with arg before them, or a sum."""
@@ -36,10 +44,9 @@ class Reductions:
         for s, (_, p) in enumerate(self.slots):
             start = t.splat(_START.get(p.removeprefix("arg"), 0.0))
             t.put(f"%acc{s} = phi {t.kind} [ {start}, %start ], [ %new{s}, {latch(self.program)} ]")
-            if p in PLACED:
-                t.put(
-                    f"%place{s} = phi {t.kind} [ {t.splat(0.0)}, %start ], [ %newplace{s}, {latch(self.program)} ]"
-                )
+            for name, first in (("held", FARTHEST[p[3:]]), ("place", 0.0)) if p in PLACED else ():
+                new = f"[ %new{name}{s}, {latch(self.program)} ]"
+                t.put(f"%{name}{s} = phi {t.kind} [ {t.splat(first)}, %start ], {new}")
         none = "false" if t.lanes == 1 else "zeroinitializer"
         for name in self.program.flags.names:
             t.put(f"%any{name} = phi {t.bit} [ {none}, %start ], [ %new{name}, {latch(self.program)} ]")
@@ -69,7 +76,9 @@ class Reductions:
         test = t.compare("olt" if p.endswith("min") else "ogt", x, acc)
         t.put(f"%new{s} = select {t.bit} {test}, {t.kind} {x}, {t.kind} {acc}")
         if p in PLACED:
-            t.put(f"%newplace{s} = select {t.bit} {test}, {t.kind} {self.place()}, {t.kind} %place{s}")
+            test = self.beyond("ogt", p, x, f"%held{s}")
+            for name, value in (("held", x), ("place", self.place())):
+                t.put(f"%new{name}{s} = select {t.bit} {test}, {t.kind} {value}, {t.kind} %{name}{s}")
 
     def place(self) -> str:
         """Number of the position in each lane."""
@@ -88,7 +97,7 @@ class Reductions:
             t.put(f"store double {value}, ptr {self.address(slot)}, align 8")
             slot += 1
             if p in PLACED:
-                value = self.first(f"%new{s}", f"%newplace{s}", value)
+                value = self.first(p, f"%newheld{s}", f"%newplace{s}", value)
                 t.put(f"store double {value}, ptr {self.address(slot)}, align 8")
                 slot += 1
         one = self.mark()
@@ -106,12 +115,18 @@ class Reductions:
         start = "double -0.0, " if how == "fadd" else ""
         return t.let(f"call reassoc nsz double @llvm.vector.reduce.{how}.{t.suffix}({start}{t.kind} {x})")
 
-    def first(self, value: str, place: str, largest: str) -> str:
-        """The first position at which the largest value occurs."""
+    def beyond(self, how: str, p: str, x: str, held: str) -> str:
+        """Whether a value is an extreme beside another by more than rounding ("ogt"), or is not ("ule")."""
+        t = self.t
+        more = t.exact("fsub", *((held, x) if p.endswith("min") else (x, held)))
+        return t.compare(how, more, t.exact("fmul", t.intrinsic("fabs", held), t.splat(TIE)))
+
+    def first(self, p: str, held: str, place: str, extreme: str) -> str:
+        """The first position at which the extreme occurs."""
         t = self.t
         if t.lanes == 1:
             return place
-        test = t.compare("oeq", value, t.broadcast(largest))
+        test = self.beyond("ule", p, t.broadcast(extreme), held)
         return self.across(t.select(test, place, t.splat(1e300)), "fmin")
 
     def mark(self) -> str:
