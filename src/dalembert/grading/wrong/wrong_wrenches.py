@@ -235,9 +235,11 @@ def _of_slider(
             size = np.hypot(*arm.T)[:, None]
             along = a / np.maximum(np.hypot(*a.T), 1e-300)[:, None]
             cosine = (arm * along).sum(axis=-1, keepdims=True) / size
-            ratio = np.hypot(*(joint_place(r, ends[0]) - joint_place(r, pin)).T)[:, None] / size
+            rod = joint_place(r, ends[0]) - joint_place(r, pin)
+            ratio = np.hypot(*rod.T)[:, None] / size
             first = -along * r["angle." + crank + ".speed"][:, None] ** 2 * size
-            second = cosine + np.sign(cosine) * (2 * cosine * cosine - 1) / ratio
+            outward = np.sign((rod * along).sum(axis=-1, keepdims=True))  # from the crank to the slider
+            second = cosine + outward * (2 * cosine * cosine - 1) / ratio
             yield taken(3, "as r w^2 cos(theta)", first * cosine)
             yield taken(3, "as r w^2 (cos(theta) + cos(2 theta)/n)", first * second)
 
