@@ -37,10 +37,16 @@ from dalembert.views.symbols.plane_symbols import (
     guide,
     hatch,
     mass_center,
+    one_way,
+    pawl,
+    ratchet,
     slider,
     slot,
     spring,
     strip_spring,
+    thread,
+    torsion_damper,
+    torsion_spring,
     two_heads,
     weld,
     wheel,
@@ -231,6 +237,102 @@ def test_a_damper_has_its_piston_in_its_pot(length: float) -> None:
     assert pot[:, 1] == pytest.approx(-pot[::-1, 1])
     assert piston[0, 1] == pytest.approx(-piston[1, 1])
     assert 0.5 * pot[0, 1] < piston[0, 1] < pot[0, 1] == pytest.approx(min(1.6, 0.2 * length))
+
+
+def polar(points: Any) -> Any:
+    """Distances from the place of a symbol, and angles in one go from that at which it is turned."""
+    x, y = local(points).T
+    return np.hypot(x, y), np.unwrap(np.arctan2(y, x))
+
+
+def test_a_spiral_has_two_turns_and_a_quarter_and_its_outer_end_is_held() -> None:
+    (line,) = torsion_spring(SPOT)
+    *spiral, held = np.array(line.points) - SPOT
+    size, turn = np.hypot(*np.array(spiral).T), np.unwrap(np.arctan2(*np.array(spiral).T[::-1]))
+    share = np.linspace(0, 1, len(spiral))
+    assert size == pytest.approx(PIN + 0.5 + (4.2 - PIN - 0.5) * share)
+    assert turn == pytest.approx(4.5 * math.pi * share, abs=1e-12)
+    assert held - spiral[-1] == pytest.approx((1.6, 0))
+
+
+def test_a_turning_damper_is_a_vane_in_a_pot_open_below() -> None:
+    pot, vane = torsion_damper(SPOT)
+    assert (pot.center, pot.radius) == (SPOT, 3.6)
+    assert np.degrees([pot.start, pot.end]) == pytest.approx([20, 160])
+    assert np.array(vane.points) - SPOT == pytest.approx(np.array([[0, PIN], [0, 3.0]]))
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_wedges_narrow_and_teeth_are_steep_towards_the_free_sense(way: float) -> None:
+    """Seen from the sense in which it turns freely; the pawl's face lies on the steep flank at the angle given."""
+    ring, *wedges = one_way(SPOT, way, ANGLE)
+    assert ring == Circle(SPOT, 3.6, "link")
+    assert len(wedges) == 3
+    for k, wedge in enumerate(wedges):
+        size, turn = polar(wedge.points)
+        assert size == pytest.approx([3.6, 3.6, 2.5])
+        assert (turn - k * 2 * math.pi / 3 + 0.1) % (2 * math.pi) - 0.1 == pytest.approx(
+            np.array([0, 0.7 * way, 0]) % (2 * math.pi), abs=1e-9
+        )
+    (toothed,) = ratchet(SPOT, 10.0, 8, way, ANGLE)
+    size, turn = polar(toothed.points)
+    assert size == pytest.approx([8.2, 10.0] * 8)
+    assert turn == pytest.approx(way * np.repeat(np.arange(8), 2) * math.pi / 4)
+    for radius, long in ((10.0, 7.0), (4.0, 4.0)):
+        finger, pivot = pawl(SPOT, radius, way, ANGLE)
+        low = 0.82 * radius
+        middle = (low + 0.6 * long, way * long)
+        wanted = [(low, 0), (radius, 0), (middle[0] + 0.7, middle[1]), (middle[0] - 0.7, middle[1])]
+        assert local(finger.points) == pytest.approx(np.array(wanted), abs=1e-12)
+        assert local(pivot.center) == pytest.approx(middle)
+        assert (pivot.radius, pivot.role) == (0.8, "pin")
+
+
+@pytest.mark.parametrize(("lead", "turns"), [(5.0, 4), (6.0, 3), (1.0, 16), (30.0, 1)])
+def test_a_screw_has_a_line_for_each_turn_of_its_thread(lead: float, turns: int) -> None:
+    """Over 20 mm; lines are 1.2 mm apart at the least, and there is one at least."""
+    shaft, *lines = thread(SPOT, ANGLE, 20.0, 1.5, lead)
+    assert local(shaft.points) == pytest.approx(
+        np.array([[-20, -1.5], [0, -1.5], [0, 1.5], [-20, 1.5]]), abs=1e-12
+    )
+    assert len(lines) == turns
+    for k, line in enumerate(lines):
+        step = 20.0 / turns
+        assert local(line.points) == pytest.approx(
+            np.array([[-k * step, -1.5], [-(k + 0.5) * step, 1.5]]), abs=1e-12
+        )
+
+
+@pytest.mark.parametrize(
+    ("length", "turns"), [(5.0, 6.5), (20.0, 6.5), (30.0, 9.5), (60.0, 18.5), (150.0, 30.5)]
+)
+def test_a_longer_spring_has_more_turns(length: float, turns: float) -> None:
+    """From 6 to 30 and a half, within 1.7 mm, or a fifth of a short one; straight ends of 0.15 of the length."""
+    (line,) = spring((0.0, 0.0), (length, 0.0))
+    x, y = np.array(line.points[1:-1]).T
+    assert len(x) == 14 * turns + 1
+    assert abs(y).max() == pytest.approx(min(1.7, 0.2 * length), rel=0.03)
+    pitch = 0.7 * length / turns
+    assert y[0] == pytest.approx(0)
+    assert (x[0], x[14] - x[0]) == pytest.approx((0.15 * length - 0.35 * pitch, pitch))
+
+
+def test_a_cylinder_of_known_diameters_is_drawn_with_them() -> None:
+    """A barrel of 3 mm; a rod of 1 mm has two sides, a thinner one is a line."""
+    for thick in (1.0, 0.9):
+        tube, first, second, _ = cylinder((0.0, 0.0), (25.0, 0.0), 20.0, 30.0, 3.0, thick)
+        assert sorted({y for _, y in tube.points}) == [-1.5, 1.5]
+        piston, rod = (second, first) if thick == 1.0 else (first, second)
+        assert [y for _, y in piston.points] == [-1.5, 1.5]
+        assert isinstance(rod, Polygon if thick == 1.0 else Line)
+        assert sorted({y for _, y in rod.points}) == ([-0.5, 0.5] if thick == 1.0 else [0.0])
+        assert max(x for x, _ in rod.points) == 25.0
+        assert {x for x, _ in piston.points} == {min(x for x, _ in rod.points)}
+    plain = cylinder((0.0, 0.0), (25.0, 0.0), 20.0, 30.0)[0]
+    small = cylinder((0.0, 0.0), (10.0, 0.0), 10.0, 12.0)[0]
+    assert max(y for _, y in plain.points) == 2.2
+    assert max(y for _, y in small.points) == pytest.approx(1.6)
+    assert SPANS["gas_spring"]((0.0, 0.0), (25.0, 0.0)) == cylinder((0.0, 0.0), (25.0, 0.0), 17.5, 25.0)
 
 
 def test_couples_turn_by_their_sign_and_moments_have_two_heads() -> None:

@@ -62,7 +62,7 @@ def path(
     on the first pose's side of every group's dead centres (``core.position.assur_groups``).
     """
     result = _both_directions(layout, first, along, start, len(along.s))
-    if len(along.s) == 1 or result.reached.all():
+    if result.reached.all():
         return result
     if period is not None and result.reached.any():
         result = _around(layout, along, period, result)

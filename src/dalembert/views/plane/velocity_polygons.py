@@ -267,6 +267,8 @@ def relative(of: str, to: str) -> str:
 
     >>> relative("C", "B"), relative("top_pin", "cross_1")
     ('CB', 'top_pin/cross_1')
+    >>> relative("G_{2}", "A1"), relative("O12", "A"), relative("A", "O12")
+    ('G2A1', 'O12/A', 'A/O12')
     """
     one, other = flat(of), flat(to)
     return f"{one}{'' if len(one) < 3 and len(other) < 3 else '/'}{other}"

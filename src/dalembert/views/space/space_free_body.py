@@ -111,9 +111,7 @@ def _sight(r: Result, link: str, k: int, camera: Camera) -> Sight:
     if r.mechanism.mass(link):
         places.append(r.center(link)[k])
     view = sight(camera, places, WIDTH, HEIGHT, unit_size(r, "length"))
-    if (
-        len(places) == 1 or max(np.ptp(camera(np.array(places)), axis=0)) < 1e-9
-    ):  # one place: as the whole machine
+    if max(np.ptp(camera(np.array(places)), axis=0)) < 1e-9:  # one place: as the whole machine
         length = r.compiled.layout.length
         near = [places[0] + 0.25 * length * e for e in (*np.eye(3), *-np.eye(3))]
         view = sight(camera, near, WIDTH, HEIGHT, unit_size(r, "length"))
