@@ -14,6 +14,7 @@ from dalembert.grading.marking.key import place
 from dalembert.grading.mistakes import SolvedProblem
 from dalembert.grading.own_figures import OwnFigures, own_figures
 from dalembert.grading.sheet_equations import SheetEquations
+from tests.grading.test_explanations import arms
 
 AWAY = (0.7, -0.4)
 """Where the machine stands on the ground."""
@@ -354,3 +355,83 @@ def test_the_force_of_a_guide_follows_whichever_sense_its_normal_has(
         "guide": given(r, "reaction", "guide", guide if on == "piston" else -guide, on=on),
     }
     assert judged(r, sheet) == ({"guide": "sum of forces along y on piston"}, ["B"])
+
+
+def test_a_force_follows_from_the_moments_of_two_links_that_have_no_other_unknown() -> None:
+    """B from moments about A on the coupler and about O4 on the rocker: the student's angular acceleration of the
+    rocker changes the second sum by I and what the sheet says of no other force."""
+    r = da.dynamics(machine())
+    own = float(r.acceleration("rocker")[0]) + 400.0
+    arms = [r["point.coupler.B"][0] - r[f"point.{at}"][0] for at in ("coupler.A", "rocker.O4")]
+    across = np.array([[-arm[1], arm[0]] for arm in arms])  # moment of a force at B
+    change = np.linalg.solve(across, [0.0, r.mechanism.inertia("rocker") * 400.0])
+    sheet = {
+        "alpha": given(r, "acceleration", "rocker", own),
+        "B": given(r, "reaction", "B", r.reaction("B", on="rocker")[0] + change, on="rocker"),
+    }
+    words = "moments about A on coupler, moments about O4 on rocker"
+    assert judged(r, sheet) == ({"B": words}, ["alpha"])
+    sheet["B"] = given(r, "reaction", "B", r.reaction("B", on="rocker")[0] - change, on="rocker")
+    assert judged(r, sheet)[0] == {}
+
+
+@pytest.mark.parametrize(("lean", "follows"), [(0.0505, True), (0.0495, False)])
+def test_two_moments_settle_no_force_where_their_arms_are_nearly_in_line(lean: float, follows: bool) -> None:
+    """Coupler and rocker lie in line but for an angle whose sine is just above 0.05, or just below."""
+    arm = np.array([-0.2 * np.cos(lean), 0.2 * np.sin(lean)])  # of B about C
+    moving = {"center": [0.1, 0.02], "mass": 1, "inertia": 0.02}
+    tree = {
+        "gravity": "none",
+        "links": {
+            "ground": {"points": {"O": [0, 0], "C": (np.array([0.3, 0.1]) - arm).tolist()}},
+            "crank": {"points": {"O": [0, 0], "A": [0, 0.1]}},
+            "rod": {"points": {"A": [0, 0], "B": [0.3, 0]}, **moving},
+            "rocker": {"points": {"C": [0, 0], "B": arm.tolist()}, **moving},
+        },
+        "joints": {
+            "O": {"type": "pin", "links": ["ground", "crank"]},
+            "A": {"type": "pin", "links": ["crank", "rod"]},
+            "B": {"type": "pin", "links": ["rod", "rocker"]},
+            "C": {"type": "pin", "links": ["ground", "rocker"]},
+        },
+        "drives": {"O": {"position": "0 rad", "speed": "3 rad/s"}},
+        "assembly": {"rod": "0 rad", "rocker": "0 rad"},
+    }
+    r = da.dynamics(da.mechanism(tree))
+    change = np.linalg.solve([[0.0, 0.3], [-arm[1], arm[0]]], [0.0, 0.02 * 5000.0])
+    sheet = {
+        "alpha": given(r, "acceleration", "rocker", float(r.acceleration("rocker")[0]) + 5000.0),
+        "B": given(r, "reaction", "B", r.reaction("B", on="rocker")[0] + change, on="rocker"),
+    }
+    assert ("B" in judged(r, sheet)[0]) is follows
+
+
+@pytest.mark.parametrize("part", ["x", "y"])
+def test_a_force_that_is_stated_twice_is_one_force(part: str) -> None:
+    """Whole and by a component: what follows from it still does."""
+    r = da.dynamics(machine())
+    sheet = carried(r, np.array([40.0, -60.0]))
+    component = sheet["A"].given.value["xy".index(part)]
+    sheet["A again"] = given(r, "reaction", "A", component, on="crank", component=part)
+    follows, first = judged(r, sheet)
+    assert first == ["A"]
+    assert {name: follows[name] for name in ("O2", "T")} == {
+        "O2": "sums of forces on crank",
+        "T": "moments about O2 on crank",
+    }
+
+
+@pytest.mark.parametrize("off", [-30.0, 30.0])
+@pytest.mark.parametrize("on", ["tip", "arm"])
+def test_a_violated_sum_along_one_axis_changes_nothing_across(off: float, on: str) -> None:
+    """Two arms welded together: of the sum along x of the tip only sizes are stated, both along x alone wrong."""
+    r = da.statics(arms(0.4))
+    p, o = r.reaction("P", on=on)[0], r.reaction("O", on="arm")[0]
+    sense = 1.0 if on == "tip" else -1.0
+    sheet = {
+        "P": given(r, "reaction", "P", np.hypot(p[0] + sense * off, p[1]), on=on, component="magnitude"),
+        "O": given(r, "reaction", "O", np.hypot(o[0] + off, o[1]), on="arm", component="magnitude"),
+    }
+    found = own_figures(SheetEquations(r), list(sheet.values()))
+    assert found.slip == "sum of forces along x on tip"
+    assert found.follows == {1: "equations, all but one slip in the sum of forces along x on tip"}

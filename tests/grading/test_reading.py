@@ -128,6 +128,13 @@ NAMES = FigureNames.of(da.load(FOUR_BAR), ())
         ("force in pin b (direction)", {"quantity": "reaction", "of": "B", "component": "direction"}),
         ("Driving torque (N m)", {"quantity": "effort", "of": "O2"}),
         ("reaction.A.x", {"quantity": "reaction", "of": "A", "component": "x"}),
+        ("A.x", {"quantity": "reaction", "of": "A", "component": "x"}),  # a point, and no name of the program
+        ("F23.x", {"quantity": "reaction", "of": "A", "on": "coupler", "component": "x"}),
+        (
+            "reaction.A.crank.magnitude",
+            {"quantity": "reaction", "of": "A", "on": "crank", "component": "magnitude"},
+        ),
+        ("question.7", None),
         ("torque at B", None),
         ("Response 1", None),
     ],

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import KNOWN, named_figure
 from dalembert.grading.written_figure import written_unit
-from dalembert.model.stated_answers import parts_of_name
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism, StatedAnswer
@@ -170,10 +169,9 @@ def _exact(text: str) -> dict[str, Any] | None:
     if "." not in text:
         return None
     try:
-        parts_of_name(text)
+        keys = named_figure(text, "")
     except ModelError:
         return None
-    keys = named_figure(text, "")
     keys.pop("value")
     return keys
 
