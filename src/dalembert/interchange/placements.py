@@ -12,6 +12,9 @@ from dalembert.arrays import Array
 NEGLIGIBLE = 1e-14
 """Components of an axis below this are rounding of the other program's angles: they become 0."""
 
+X, Y, Z = np.eye(3)
+"""The axes."""
+
 
 def placement(rotation: Array, position: Sequence[float] | Array) -> Array:
     """The matrix of a rotation (3, 3) and a position (3,)."""
@@ -35,7 +38,7 @@ def turned(axis: Sequence[float] | Array, angle: float) -> Array:
 def roll_pitch_yaw(angles: Sequence[float]) -> Array:
     """Rotation (3, 3) about fixed x, then y, then z: URDF and SDFormat."""
     roll, pitch, yaw = angles
-    return turned((0, 0, 1), yaw) @ turned((0, 1, 0), pitch) @ turned((1, 0, 0), roll)
+    return turned(Z, yaw) @ turned(Y, pitch) @ turned(X, roll)
 
 
 def to_roll_pitch_yaw(rotation: Array) -> tuple[float, float, float]:
@@ -51,7 +54,7 @@ def to_roll_pitch_yaw(rotation: Array) -> tuple[float, float, float]:
 def body_313(angles: Sequence[float]) -> Array:
     """Rotation (3, 3) about z, then the turned x, then the turned z: Adams."""
     first, second, third = angles
-    return turned((0, 0, 1), first) @ turned((1, 0, 0), second) @ turned((0, 0, 1), third)
+    return turned(Z, first) @ turned(X, second) @ turned(Z, third)
 
 
 def to_body_313(rotation: Array) -> tuple[float, float, float]:

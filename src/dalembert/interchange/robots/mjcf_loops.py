@@ -10,7 +10,15 @@ import numpy as np
 from dalembert.arrays import Array, Tree
 from dalembert.interchange.couplings import coupled_wheels
 from dalembert.interchange.link_graph import Connection, DrivenFreedom, LinkGraph, LinkPart, plain_name
-from dalembert.interchange.placements import along, from_quaternion, inverse, placement, to_quaternion, turned
+from dalembert.interchange.placements import (
+    Z,
+    along,
+    from_quaternion,
+    inverse,
+    placement,
+    to_quaternion,
+    turned,
+)
 from dalembert.interchange.robots.mjcf_reader import MjcfTree, MovedJoint, TreeLink
 from dalembert.interchange.xml_tree import Element, parse
 from dalembert.model import GROUND
@@ -84,7 +92,7 @@ class _MjcfGraph:
         if joint.kind == "ball":
             step = placement(from_quaternion(q[joint.q : joint.q + 4]), [0, 0, 0])
         elif joint.kind == "hinge":
-            step = placement(turned((0, 0, 1), q[joint.q] - self.ref(joint)), [0, 0, 0])
+            step = placement(turned(Z, q[joint.q] - self.ref(joint)), [0, 0, 0])
         else:
             step = placement(np.eye(3), [q[joint.q] - self.ref(joint), 0, 0])
         return axes @ step @ inverse(axes)
@@ -135,7 +143,7 @@ class _MjcfGraph:
         if joint.kind == "ball" or not ref:
             return axes
         if joint.kind == "hinge":
-            return axes @ placement(turned((0, 0, 1), -ref), [0, 0, 0])
+            return axes @ placement(turned(Z, -ref), [0, 0, 0])
         return axes @ placement(np.eye(3), [-ref, 0, 0])
 
     def _chain(self, link: TreeLink, above: Array) -> list[Connection]:

@@ -57,7 +57,8 @@ def _joint(m: Mechanism, r: Result, name: str, program: str) -> SketchJoint:
         sketched.slides_along = turn + joint.direction
     drive = next((d for d in m.drives if m.drive_joint(d) == name), None)
     if drive is not None:
-        sketched.speed = float(r.drive_speed(drive)[0]) * (1 if j != GROUND else -1)
+        speed = float(r.drive_speed(drive)[0])
+        sketched.speed = -speed if j == GROUND else speed
     return sketched
 
 

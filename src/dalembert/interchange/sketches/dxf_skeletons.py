@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -38,11 +39,13 @@ def read_dxf(content: bytes, file: str) -> PlaneSketch:
         raise ModelError(
             "the file has more than 5000000 bytes", "leave all but the skeleton out", (), file, 1
         )
+    text = content.decode("utf-8", "replace")
     try:
-        drawing = ezdxf.read(io.StringIO(content.decode("utf-8", "replace")))
+        drawing = ezdxf.read(io.StringIO(text))
     except (ezdxf.DXFError, ValueError, IndexError) as error:
         raise ModelError(f"the file is not DXF: {error}", "save it as ASCII DXF", (), file, 1) from None
-    unit = UNITS.get(int(drawing.header.get("$INSUNITS", 0)))
+    has_unit = re.search(r"^\s*\$INSUNITS\s*$", text, re.M)  # ezdxf takes metres where the file says nothing
+    unit = UNITS.get(int(drawing.header["$INSUNITS"])) if has_unit else None
     sketch = PlaneSketch("DXF skeleton")
     if unit is None:
         unit = 1e-3
@@ -78,7 +81,7 @@ def _shapes(drawing: Any, unit: float, sketch: PlaneSketch) -> Iterator[Shape]:
 def join_shapes(sketch: PlaneSketch, shapes: list[Shape]) -> None:
     """Joints where ends of links meet, or are on the ground."""
     every = [p for _, points in shapes for p in points]
-    size = max(max(abs(c - d) for c, d in zip(p, every[0], strict=True)) for p in every) or 1.0
+    size = max(max(abs(c - d) for c, d in zip(p, every[0], strict=True)) for p in every)
     places: list[Point] = []
     on: list[list[str]] = []
 
