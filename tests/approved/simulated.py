@@ -83,7 +83,7 @@ SIMULATED: dict[str, Callable[[], Any]] = {
         landing.SLOPE % ("{coefficient: 0.1}", "{effort: 0}") + "\nstart: {track: {position: 0, speed: 0}}",
     ),
     "follower": run(landing.JUMPING.replace("FOLLOWER", "{roller: 0.01}"), "0.04 s"),
-    "hammer": run(lambda: da.load(HAMMER), "1 s"),
+    "hammer": run(lambda: da.load(HAMMER), "2 s"),
     "piston-on-a-stop": run(stops.CRANK % "", "3 s"),
     "piston-on-a-stop-with-friction": run(
         stops.CRANK % ", friction: {coefficient: 0.2, radius: 20 mm}", "1 s"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.analysis.output.rounding import sizes
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import first_largest
@@ -124,10 +125,11 @@ def _joints(s: Simulation, to: Printed) -> TextTable:
     """Greatest force in each joint and when."""
     largest = {joint: greatest(s.result.reaction(joint)) for joint in s.result.joints}
     known = {joint: both for joint, both in largest.items() if np.isfinite(both[0])}
-    sizes = round_components([f for f, _ in known.values()], max((f for f, _ in known.values()), default=0.0))
+    beside = float(sizes(s.result)["force"].max())
+    forces = round_components([f for f, _ in known.values()], beside)
     rows = [
         [n, to.number("force", f), to.number("time", s.time[k]) if f else ""]
-        for (n, (_, k)), f in zip(known.items(), sizes, strict=True)
+        for (n, (_, k)), f in zip(known.items(), forces, strict=True)
     ]
     heads = ["joint", f"greatest force\n{to.text('force')}", f"at\n{to.text('time')}"]
     return TextTable(heads, rows)
