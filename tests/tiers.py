@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-BLOCK, LONG = 20, 1
+BLOCK, LONG = 15, 1
 """Mechanisms in one test of a block, and how many blocks of each law are long."""
 
 

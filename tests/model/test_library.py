@@ -40,6 +40,7 @@ from dalembert.model.library import (
     whitworth,
 )
 from dalembert.model.library.from_files import template_function
+from tests.tiers import crossed
 
 NAMES = list(TEMPLATES)
 ROUGH = radians(1.0)
@@ -100,8 +101,7 @@ def test_a_dimension_of_the_function_is_the_parameter_of_the_file(name: str) -> 
         assert files[path] == expected, path
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("text", [False, True])
+@crossed("name, text", NAMES, [False, True])
 def test_every_position_is_solved(name: str, text: bool) -> None:
     m = loads(template_text(name)) if text else template(name)
     result = solve(m)
