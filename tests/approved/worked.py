@@ -8,6 +8,7 @@ from typing import Any
 
 import dalembert as da
 from dalembert.bundled import cases, examples
+from dalembert.wrench import Couple, Force, System
 from tests.elements.test_cylinders import BOOM
 
 RSSR = (
@@ -39,6 +40,35 @@ ROUGH_BOOM = BOOM.replace(
 ).replace("position: 1000", "position: 1000, speed: 50 mm/s")
 
 
+SYSTEMS = (
+    System(
+        Force([-3, -4], at=[2, 1]),
+        Force([0, "-5 kN"], at=["300 mm", 0]),
+        title="Back and down",
+        units={"force": "kN", "length": "mm"},
+    ),
+    System(Force([0, -5], at=[2, 1]), Couple(-3), title="Down"),
+    System(Force([-5, 0], at=[2, 1]), Couple(4), title="To the left"),
+    System(Force([6, 0]), Force([-2, 0], at=[0, 3]), Force([-4, 0], at=[1, -1]), title="A couple"),
+    System(Force([6, 0], at=[0, 1]), Force([-6, 0], at=[0, 1]), Force([0, 0], at=[2, 2]), title="Nothing"),
+    System(
+        Force([-2, 3, -6], at=[1, -1, 2]),
+        Couple([0, -4, 2]),
+        title="A wrench",
+        units={"length": "mm", "force": "kN"},
+    ),
+    System(Force([0, 0, -4], at=[1, 2, 0]), Force([0, 0, -2], at=[-1, 1, 3]), title="Parallel in space"),
+    System(Force([0, -3, 0], at=[1, 2, 0]), Couple([3, 5, 3]), title="A wrench along an axis"),
+    System(Couple([1, -2, 2]), Couple([0, 0, "-3 kN*mm"]), title="Couples in space"),
+    System(Force([0, 2]), Force([0, -2], at=[0.5, 0]), Couple(3), title="Small forces"),
+)
+CLOCKWISE = da.Notation(links="name", order="on-by", letter="G", torque=-1, axes="link")
+
+
+def force_systems() -> str:
+    return "\n".join([str(da.report(s)) for s in SYSTEMS] + [str(da.report(SYSTEMS[5], at=[1, -1, 2]))])
+
+
 def report(m: Any, at: int | None = None, **options: Any) -> Callable[[], str]:
     def written() -> str:
         made = m() if callable(m) else da.loads(m)
@@ -48,6 +78,18 @@ def report(m: Any, at: int | None = None, **options: Any) -> Callable[[], str]:
 
 
 WORKED_OUT: dict[str, Callable[[], str]] = {
+    "solution-force-systems": force_systems,
+    **{
+        f"solution-{name}-clockwise": report(lambda of=of: da.load((cases() | examples())[of]), notation=notation)
+        for name, of, notation in (
+            ("quick-return", "quick_return", CLOCKWISE),
+            ("engine", "seed-002-7gb-engine-guide-10-mm", da.Notation(torque=-1, axes="link")),
+            ("epicyclic", "gtr-3-compound-epicyclic-train", CLOCKWISE),
+        )
+    },
+    "solution-rssr-in-link-axes": report(
+        lambda: da.load(examples()["rssr"]), 4, notation=da.Notation(order="on-by", axes="link", units="SI")
+    ),
     "solution-rough-ball": report(ROUGH),
     "solution-sought-couple-in-space": report(SOUGHT),
     "solution-damped-arm": report(PENDULUM),

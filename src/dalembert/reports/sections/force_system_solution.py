@@ -279,9 +279,21 @@ class _Solution:
         self.sheet.heading("Equilibrium")
         check = self.s.equilibrium()
         self.sheet.text(re.sub(r"-(?=\d)", "−", pretty(check.sentence)))
-        self.sheet.text(
-            "The residual is the larger of two parts: the sum of forces over the largest force, and the sum of moments "
-            f"over that force times the length {self.shown.text('length', self.s.length)}. It is {check.residual:.2g}."
+        self.sheet.text(f"{self._scales()} It is {check.residual:.2g}.")
+
+    def _scales(self) -> str:
+        """What the two parts of the residual are divided by."""
+        length = self.shown.text("length", self.s.length)
+        force = max((f.size for f in self.s.forces), default=0.0)
+        if not self.s.length:
+            over = ("the largest force", "the largest couple, as no two forces are apart")
+        elif self.largest > force:
+            over = (f"the largest couple divided by the length {length}", "that couple")
+        else:
+            over = ("the largest force", f"that force times the length {length}")
+        return (
+            "The residual is the larger of two parts: the sum of forces over "
+            f"{over[0]}, and the sum of moments over {over[1]}."
         )
 
 
