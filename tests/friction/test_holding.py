@@ -79,6 +79,16 @@ def test_a_wedge_holds_more_after_it_came_back(
     assert (pressed > forward) == (floor > np.tan(np.radians(slope)))
 
 
+def test_coefficients_at_rest_hold_also_where_what_moves_is_smooth() -> None:
+    """Smooth in motion, and at rest with the coefficients of the wedge above, it holds what that one holds."""
+    tree = wedge(0.6, 0.5, 20.0).to_tree()
+    for name, mu in (("floor", 0.6), ("wall", 0.5)):
+        tree["joints"][name]["friction"] = {"coefficient": 0.0, "static": mu}
+    r, alike = da.statics(da.mechanism(tree)), da.statics(wedge(0.6, 0.5, 20.0))
+    assert r.holding("floor") == pytest.approx(alike.holding("floor"), rel=1e-12)
+    assert r.interval("floor") == pytest.approx(alike.interval("floor"), rel=1e-12)
+
+
 def test_a_wedge_that_locks_holds_any_effort() -> None:
     """wall tan(slope) > 1: the wall's friction presses B on more than its force on the wall asks."""
     r = da.statics(wedge(1.5, 1.3, 40.0))
