@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,9 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.wrench import Couple, Force, System
 from tests.elements.test_cylinders import BOOM
+from tests.space.test_friction import body
+from tests.space.test_gears import Z, pair, wheel
+from tests.space.test_report_said import BEARING, RUBBING, SCREW
 
 RSSR = (
     (Path(__file__).parents[1] / "model" / "rssr.yaml").read_text(encoding="utf-8").partition("answers:")[0]
@@ -69,6 +73,69 @@ def force_systems() -> str:
     return "\n".join([str(da.report(s)) for s in SYSTEMS] + [str(da.report(SYSTEMS[5], at=[1, -1, 2]))])
 
 
+FRICTION = re.compile(r"^\d+ Friction\n-+\n(.*?)(?=^\d+ [A-Z].*\n--)", re.MULTILINE | re.DOTALL)
+TURNED = {"P": {"position": "30 deg", "speed": "-2 rad/s"}}
+RUB: dict[str, Any] = RUBBING | {
+    "journal of tan": (
+        {
+            "type": "revolute",
+            "axis": [0, 0, 1],
+            "friction": {"coefficient": 0.25, "radius": 0.015, "circle": "tan"},
+        },
+        [100, 20, -60],
+        TURNED,
+    ),
+    "guide without ends": (
+        {"type": "prismatic", "axis": [1, 0, 0], "friction": {"coefficient": 0.2}},
+        [0, 30, -40],
+        {"P": {"position": 0, "speed": "1 m/s"}},
+    ),
+    "sleeve with ends": (
+        {
+            "type": "cylindrical",
+            "axis": [1, 0, 0],
+            "friction": {"coefficient": 0.3, "radius": 0.02, "circle": "tan", "guide": [0.05, 0.08]},
+        },
+        [0, 30, -40],
+        {
+            "slide": {"joint": "P", "freedom": "slide", "position": 0, "speed": "-0.05 m/s"},
+            "turn": {"joint": "P", "freedom": "turn", "position": 0, "speed": "4 rad/s"},
+        },
+    ),
+    "nut that goes down": (
+        {"type": "screw", "axis": [0, 0, 1], "lead": -6e-3, "friction": SCREW},
+        [50, 0, -5000],
+        {"P": {"freedom": "turn", "position": 0, "speed": "1 rad/s"}},
+    ),
+    "bearing turned back": (
+        {"type": "revolute", "axis": [0, 0, 1], "friction": BEARING},
+        [100, 20, -60],
+        TURNED,
+    ),
+}
+
+
+def rough_joints() -> str:
+    """The sections on friction of one body on one joint, and of wheels in mesh."""
+    made = {
+        name: body(joint, load, [0.3, -0.5, 0.2], **drives) for name, (joint, load, drives) in RUB.items()
+    }
+    small, large = wheel([0, 0, 0], Z, 0.05), wheel([0.15, 0, 0], Z, 0.1)
+    crossed = wheel([0, 0, 0], Z, 0.05), wheel([0.15, 0, 0], [0, -0.6, 0.8], 0.1)
+    for name, (a, b), keys in (
+        ("mesh with an efficiency", (small, large), {"efficiency": 0.95}),
+        ("mesh that rubs", (small, large), {"friction": {"coefficient": 0.1, "arm": 0.004}}),
+        ("crossed wheels", crossed, {"friction": {"coefficient": 0.1}}),
+    ):
+        made[name] = da.dynamics(pair(a, b, [0, 0, -10], **keys), positions=1)
+    texts = {name: str(da.report(r, methods=["steps"])) for name, r in made.items()}
+    return "\n".join(f"--- {name}\n{found[1]}" for name, t in texts.items() if (found := FRICTION.search(t)))
+
+
+ONE_REDUNDANT = da.lifted(da.four_bar(positions=1), {}, {"B": "spherical"})
+"""A plane four-bar in space with a ball: one constraint too many."""
+
+
 def report(m: Any, at: int | None = None, **options: Any) -> Callable[[], str]:
     def written() -> str:
         made = m() if callable(m) else da.loads(m)
@@ -90,6 +157,9 @@ WORKED_OUT: dict[str, Callable[[], str]] = {
     "solution-rssr-in-link-axes": report(
         lambda: da.load(examples()["rssr"]), 4, notation=da.Notation(order="on-by", axes="link", units="SI")
     ),
+    "solution-rough-joints": rough_joints,
+    "solution-hydraulic-lift": report(lambda: da.load(cases()["vw-01-hydraulic-lift"])),
+    "solution-one-redundant": report(lambda: ONE_REDUNDANT, methods=["steps", "matrix"]),
     "solution-rough-ball": report(ROUGH),
     "solution-sought-couple-in-space": report(SOUGHT),
     "solution-damped-arm": report(PENDULUM),

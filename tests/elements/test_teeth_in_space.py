@@ -71,7 +71,7 @@ SPUR = WORM.replace("helix_angle: 78", "helix_angle: 0").replace("[1, 0, 0]", "[
         (
             SPUR.replace("friction: {coefficient: 0.06}", "efficiency: 0.9"),
             [
-                ("F_{t,G}", "", '760.0 "N"'),
+                ("F_{t,G}", "", '760.0 "N, mean of the moments on both wheels over their radii"'),
                 (
                     "|M_{f23}| = (1 − eta_{G}) e_{G} F_{t,G}",
                     "0.1 cdot 21.05 cdot 760.0 / 1000",  # 2 N m of the driver's 20 at 10 rad/s of 12.5

@@ -351,3 +351,29 @@ def test_what_idle_links_lose_is_printed_as_nothing() -> None:
     table = r.text().partition("friction over")[2].splitlines()[3:9]
     assert [line.split()[:3] for line in table[3:]] == [[j, "0", "0"] for j in "CDR"]
     assert [float(line.split()[1]) > 0.1 for line in table[:3]] == [True] * 3
+
+
+@pytest.mark.parametrize(("couple", "speed"), [(0.2, 2.0), (-0.2, -2.0)])
+def test_a_drive_and_a_load_that_both_put_work_in(couple: float, speed: float) -> None:
+    """Against more friction than the load overcomes: nothing arrives, and the pin takes all that is put in."""
+    tree = {
+        "links": {"ground": {"points": {"O": [0, 0]}}, "shaft": {"points": {"O": [0, 0]}}},
+        "joints": {
+            "O": {
+                "type": "pin",
+                "links": ["ground", "shaft"],
+                "friction": {"coefficient": 0.1, "radius": 0.05, "circle": "tan"},
+            }
+        },
+        "drives": {"O": {"position": [0, 1], "speed": f"{speed} rad/s"}},
+        "loads": {
+            "F": {"type": "force", "on": "shaft", "at": "O", "value": [100, 0]},
+            "M": {"type": "couple", "on": "shaft", "value": couple},
+        },
+    }
+    r = da.statics(da.mechanism(tree))
+    assert r.effort("O") == pytest.approx([np.copysign(0.5 - 0.2, speed)] * 2)
+    e = da.efficiency(r)
+    assert (e.cycle, e.share) == (pytest.approx(0, abs=1e-15), {"O": pytest.approx(1)})
+    assert e.put_in == pytest.approx(e.lost)
+    assert "O      1.000           100.0 %" in str(da.report(r))

@@ -243,7 +243,8 @@ class _Joint:
             (f"S_{{{name}}}", f"mu_{{{name}}}") if rubs else (f"F_{{t,{name}}}", f"(1 − eta_{{{name}}})")
         )
         lost, size = self._mu(teeth), self._number("force", teeth.bearing)
-        out = [Working(letter, "", self._text("force", teeth.bearing))]
+        words = "" if rubs else ", mean of the moments on both wheels over their radii"
+        out = [Working(letter, "", figure(self.c.shown, "force", teeth.bearing, words))]
         force, couple = self._law()
         if self.contacts[0].kind == "mesh" and rubs and self.contacts[0].strength:
             amount = self._text("force", abs(self.contacts[0].amount))
