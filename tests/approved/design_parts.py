@@ -10,12 +10,14 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.reports.design.element_parts import element_parts
 from dalembert.reports.design.force_part import force_part
-from dalembert.reports.design.power_parts import balance_part
+from dalembert.reports.design.motion_part import motion_part
+from dalembert.reports.design.power_parts import balance_part, flywheel_part, motor_part, shaking_part
 from dalembert.reports.design.start_up import start_up_part
 from dalembert.reports.design.strength_parts import bearing_part, member_part, pin_part
 from dalembert.reports.design.verdict import DesignContext
 from dalembert.reports.sheet import ReportSheet
 from dalembert.reports.writers.plain_writer import plain_text
+from tests.approved.commands import BROKEN
 from tests.elements.test_cylinders import BOOM, SIZES
 from tests.space.machines import door
 
@@ -23,6 +25,7 @@ Find = Callable[[DesignContext], Any]
 ELEMENTS = Path(__file__).parents[1] / "elements"
 STEEL = {"rectangle": ["20 mm", "40 mm"], "elasticity": "206 GPa"}
 TIRED = STEEL | {"yield_stress": "300 MPa", "endurance": "120 MPa", "ultimate": "500 MPa"}
+MOTOR = {"stall": "60 N*m", "no_load": "5000 rpm"}
 PIN = {"diameter": "20 mm", "eye": "30 mm", "cheeks": "15 mm"}
 
 
@@ -57,11 +60,11 @@ def cylinders() -> Iterator[Any]:
 
 
 def motors() -> Iterator[Any]:
-    """One that reaches its speed, one with too much inertia, one that turns backwards."""
+    """One that reaches its speed at once, one in 0.7 s, one with too much inertia, one that turns backwards."""
     free = {"loads__load__value": [0, 0]}
-    motor = {"stall": "60 N*m", "no_load": "5000 rpm"}
-    yield crank(**free, drives__O2__motor=motor)
-    yield crank(**free, drives__O2__motor=motor, links__crank__inertia="500 kg*m^2")
+    yield crank(**free, drives__O2__motor=MOTOR)
+    yield crank(**free, drives__O2__motor=MOTOR, links__crank__inertia="0.1 kg*m^2")
+    yield crank(**free, drives__O2__motor=MOTOR, links__crank__inertia="500 kg*m^2")
     back = {"stall": "-60 N*m", "no_load": "-5000 rpm"}
     yield crank(**free, drives__O2__speed="-20 rad/s", drives__O2__motor=back)
 
@@ -91,5 +94,18 @@ DESIGNED: dict[str, Callable[[], str]] = {
     ),
     "start-up": lambda: sections(start_up_part, *motors()),
     "balance": lambda: sections(balance_part, crank()),
+    "motor": lambda: sections(
+        motor_part,
+        crank(drives__O2__motor=MOTOR),
+        crank(drives__O2__motor=MOTOR | {"stall": "600 N*m"}),
+        da.dynamics(da.five_bar(positions=3)),
+    ),
+    "flywheel": lambda: sections(
+        flywheel_part, crank(), crank(**{f"links__{link}__mass": 0 for link in ("crank", "rod", "piston")})
+    ),
+    "shaking": lambda: sections(shaking_part, crank(), crank(gravity="standard", drives__O2__speed="0 rpm")),
+    "motion": lambda: sections(
+        motion_part, crank(), bundled("excavator", 3), da.statics(da.loads(BROKEN)), da.dynamics(door())
+    ),
     "forces": lambda: sections(force_part, crank(), da.dynamics(door())),
 }

@@ -15,12 +15,14 @@ from dalembert.errors import ModelError
 from dalembert.machine.members.member_table import member_table
 from dalembert.machine.output.sizes_over_cycle import rms
 from dalembert.reports.design.design_report import PARTS, design_sheet, parts_of
+from dalembert.reports.design.element_parts import element_parts
 from dalembert.reports.design.motion_part import motion_part
 from dalembert.reports.design.power_parts import balance_part, motor_part
 from dalembert.reports.design.strength_parts import member_part
 from dalembert.reports.design.summary_page import summary
-from dalembert.reports.design.verdict import DesignContext, DesignPart, DesignVerdict, judged
+from dalembert.reports.design.verdict import DesignContext, DesignPart, DesignVerdict, judged, together
 from dalembert.reports.sheet import Drawings, Heading, Paragraph, ReportSheet, SheetTable
+from tests.elements.test_cylinders import BOOM, SIZES
 from tests.tiers import tiers
 
 BUNDLED = cases() | examples()
@@ -167,3 +169,24 @@ def test_the_command_goes_over_the_turn_of_a_drive_that_moves(tmp_path: Any) -> 
     text = out.read_text(encoding="utf-8")
     assert "72, 72 of them solved" in text
     assert all(title in text for title, _ in PARTS if title not in ("Machine elements", "Pins"))
+
+
+def test_of_many_names_a_dozen_is_written() -> None:
+    names = [f"J{k}" for k in range(1, 15)]
+    assert together(names[:12]) == "J1, J2, J3, J4, J5, J6, J7, J8, J9, J10, J11, J12"
+    assert together(names) == "J1, J2, J3, J4, J5, J6, J7, J8, J9, J10, J11, J12 and 2 more"
+
+
+@pytest.mark.parametrize(
+    ("closed", "stroke", "state"),
+    [
+        *(("1000 mm", "400 mm", "ok"), ("999.999 mm", "400 mm", "ok"), ("1000.001 mm", "400 mm", "exceeded")),
+        *(("700 mm", "300 mm", "ok"), ("700 mm", "299.999 mm", "exceeded"), ("700 mm", "300.001 mm", "ok")),
+    ],
+)
+def test_a_cylinder_may_stand_at_the_ends_of_its_stroke(closed: str, stroke: str, state: str) -> None:
+    """It is 1000 mm long; at either end rounding is no reason."""
+    text = BOOM.replace(SIZES, f"{SIZES}, closed: {closed}, stroke: {stroke}")
+    (part,) = element_parts(DesignContext(da.statics(da.loads(text)), 0, da.Notation()))
+    (verdict,) = (v for v in part.verdicts if v.item == "stroke of C")
+    assert (verdict.state, verdict.value) == (state, "1000 mm to 1000 mm")

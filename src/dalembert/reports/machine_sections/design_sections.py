@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from dalembert.analysis.output.rounding import PART
 from dalembert.machine.motion.occurrences import say
 from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views.notation import Shown
@@ -93,8 +96,9 @@ def flywheel_section(sheet: ReportSheet, f: Flywheel, shown: Shown) -> None:
     speed, *limits = (shown.number("angular_speed", w) for w in (abs(size.speed), *size.limits))
     rotating = shown.with_factor(f"frac({fluctuation}; {cs} cdot {speed}^{{2}})", "inertia", "energy")
     rotating = rotating if shown.scale.text("angular_speed") == "rad/s" else ""
+    mean = shown.number("moment", f.mean, PART * float(np.abs(f.torque).max()))
     rows = [
-        ("T_{m}", "", shown.number("moment", f.mean), "moment"),
+        ("T_{m}", "", mean, "moment"),
         ("Δ E = E_{max} - E_{min}", f"{most} - ({least})", fluctuation, "energy"),
         ("I = frac(Δ E; C_{s} omega^{2})", rotating, shown.number("inertia", size.inertia), "inertia"),
         ("omega = omega_{m} (1 ∓ C_{s} / 2)", "", " quad ".join(limits), "angular_speed"),

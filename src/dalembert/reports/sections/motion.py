@@ -23,8 +23,7 @@ def motion(sheet: ReportSheet, c: ReportContext) -> None:
     if not r.drives:
         return
     sheet.heading("Motion by loop equations" if "steps" in c.methods else "Motion")
-    moving = any(np.any(r.speed(n)[c.k]) or np.any(r.acceleration(n)[c.k]) for n in r.links)
-    moving = moving or any(np.any(r.center_acceleration(n)[c.k]) for n in r.links) or not stands_still(r, c.k)
+    moving = not stands_still(r, c.k)
     for n, loop in enumerate(kinematics.loops(r, c.k)):
         names = " – ".join(shown.heading(link) for link in loop.links)
         sheet.text(f"Loop {n + 1} through links {names}: the sides sum to zero.")
@@ -39,7 +38,7 @@ def motion(sheet: ReportSheet, c: ReportContext) -> None:
             sheet.equations(lines)
     heads, rows = _motion_table(c, moving)
     sheet.table(heads, rows, "Motion of the links and of their mass centres")
-    if not stands_still(r, c.k):
+    if moving:
         sheet.figure(
             draw.velocity_polygon(r, c.k + 1, c.notation), draw.acceleration_polygon(r, c.k + 1, c.notation)
         )
