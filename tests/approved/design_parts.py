@@ -26,6 +26,11 @@ ELEMENTS = Path(__file__).parents[1] / "elements"
 STEEL = {"rectangle": ["20 mm", "40 mm"], "elasticity": "206 GPa"}
 TIRED = STEEL | {"yield_stress": "300 MPa", "endurance": "120 MPa", "ultimate": "500 MPa"}
 MOTOR = {"stall": "60 N*m", "no_load": "5000 rpm"}
+STRONG_BOOM = (
+    BOOM.replace(SIZES, f"{SIZES}, closed: 900, stroke: wide")
+    .replace("boom: {points", "boom: {section: {rectangle: [80, 120], yield_stress: 235 MPa}, points")
+    .replace("gravity:", "parameters: {wide: 400 mm}\ngravity:")
+)
 PIN = {"diameter": "20 mm", "eye": "30 mm", "cheeks": "15 mm"}
 
 
@@ -51,12 +56,18 @@ def sections(find: Find, *results: Any) -> str:
 
 
 def cylinders() -> Iterator[Any]:
-    """With columns, without their sizes, and one that would pull on its oil."""
+    """With columns, without their sizes, and two that would pull on their oil: at one position, and at some."""
     yield bundled("excavator", 3)
     yield da.statics(da.loads(BOOM))
     yield da.statics(
         da.loads(BOOM.replace("standard", "[0, 9.81 m/s^2]").replace(SIZES, f"{SIZES}, rod_pressure: 0"))
     )
+    falls = BOOM.replace("standard", "[-9.81 m/s^2, 0]").replace(SIZES, f"{SIZES}, rod_pressure: 0")
+    yield da.statics(da.loads(falls.replace("position: 1000", "position: {from: 650, to: 1000, count: 3}")))
+
+
+def whole(r: Any) -> str:
+    return str(da.report(r, design=True))
 
 
 def motors() -> Iterator[Any]:
@@ -94,6 +105,9 @@ DESIGNED: dict[str, Callable[[], str]] = {
     ),
     "start-up": lambda: sections(start_up_part, *motors()),
     "balance": lambda: sections(balance_part, crank()),
+    "boom": lambda: whole(da.statics(da.loads(STRONG_BOOM))),
+    "rssr": lambda: whole(bundled("rssr", 4)),
+    "does-not-close": lambda: whole(bundled("four_bar", 6, links__crank__points__A=["0.5 m", 0])),
     "motor": lambda: sections(
         motor_part,
         crank(drives__O2__motor=MOTOR),

@@ -26,6 +26,8 @@ from dalembert.reports.design.verdict import (
 
 USUAL = 0.05
 """Cs of the flywheel that is proposed: of presses and machine tools 0.02 to 0.2 (Norton, Design of Machinery, 11)."""
+NOTHING = 1e-9
+"""Part of the rms force below which what counterweights leave is rounding."""
 LIGHT = 1e-6
 """Part of the machine's mass, times the square of its size, that does not count as a flywheel."""
 
@@ -111,7 +113,8 @@ def balance_part(c: DesignContext) -> Iterator[DesignPart]:
         whole_turns(r.drive_position(r.drives[0]))
     b = balance(m, some, positions=len(r.status) if len(r.status) > 1 else None)
     part = DesignPart("Balance")
-    value = f"{100 * b.value:.3g} % of the rms force"
+    left = b.value if b.value > NOTHING else 0.0
+    value = f"{100 * left:.3g} % of the rms force"
     reason = f"a proposal for {', '.join(some)}; the file has no limit"
     part.verdicts.append(not_judged("inertia force left by counterweights", reason, value))
     put_answer(part.sheet, b, c)
