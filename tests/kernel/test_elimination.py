@@ -11,6 +11,7 @@ import pytest
 from dalembert.arrays import Array
 from dalembert.kernel.elimination import structural
 from dalembert.kernel.graph import Graph
+from dalembert.kernel.position.placing_order import UNDETERMINED, blocks
 from tests.tiers import over
 
 
@@ -104,3 +105,39 @@ def test_what_no_numbers_could_solve_is_refused(rows: list[list[float]], size: i
     graph = Graph()
     with pytest.raises(ValueError, match=f"^{says}$"):
         structural(graph, traced(graph, np.array(rows, float)), size)
+
+
+GROUND = -1
+ONE_BY_ONE = {0: {GROUND, 0}, 1: {GROUND, 0}, 2: {GROUND, 1}, 3: {0, 1}, 4: {0, 2}, 5: {1, 2}}
+"""Rows between parts of two coordinates each: 0 on the ground, 1 between it and the ground, 2 between both."""
+
+
+@pytest.mark.parametrize(
+    ("ends", "more", "placed"),
+    [
+        (ONE_BY_ONE, {}, [[0], [1], [2]]),
+        (
+            ONE_BY_ONE,
+            {6: {GROUND, 2}},
+            [[0], [1, 2]],
+        ),  # it could hold 2 instead of a row to 1, whose row could hold 0
+        (ONE_BY_ONE, {6: {GROUND, 1}}, [[0], [1], [2]]),  # of 1 alone
+        (ONE_BY_ONE, {6: {GROUND, 0}}, [[0], [1], [2]]),  # held by one joint, which never fails
+        (ONE_BY_ONE, {6: {1, 2}}, [[0], [1, 2]]),
+        ({0: {0, 1}, 1: {0, 1}, 2: {GROUND, 0}, 3: {GROUND, 1}}, {}, [[0, 1]]),
+        ({0: {1, 0}, 1: {0, 1}, 2: {GROUND, 1}, 3: {GROUND, 1}}, {}, [[1], [0]]),
+    ],
+)
+def test_parts_are_placed_behind_those_that_hold_them(
+    ends: dict[int, set[int]], more: dict[int, set[int]], placed: list[list[int]]
+) -> None:
+    """Those that a redundant row could hold instead of others at once; rows of other parts do not matter."""
+    assert blocks(ends | more, 2, frozenset(more)) == placed
+    assert blocks(ends | more, 2, frozenset(more) | {77}) == placed
+
+
+def test_parts_that_too_few_rows_hold_have_no_order() -> None:
+    with pytest.raises(ValueError, match=UNDETERMINED):
+        blocks({0: {GROUND, 0}, 1: {0, 1}, 2: {0, 1}}, 2, frozenset())
+    with pytest.raises(ValueError, match=UNDETERMINED):
+        blocks(ONE_BY_ONE, 2, frozenset({5}))

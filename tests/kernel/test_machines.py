@@ -139,6 +139,15 @@ def test_a_way_of_closing_holds_where_both_coincide() -> None:
     assert found.tolist() == [1, 1, 1, 1, -1, -1, -1, 1]
 
 
+def test_lengths_choose_the_motion_only_where_it_passes_change_points() -> None:
+    """A parallelogram of another length may go on as the other linkage; of another mass it does not."""
+    parallelogram = da.four_bar(ground=0.3, crank=0.1, coupler=0.3, rocker=0.1, sweep=(0.3, 3.6), positions=6)
+    for m, told in ((parallelogram, [False, True, False]), (da.four_bar(positions=6), None)):
+        k = da.compile(m, vary=["links.ground.points.O4.0", "links.rocker.mass"])
+        changes = k.may_change_branch(k.nominal * np.array([[1, 1], [1.001, 1], [1, 1.1]]))
+        assert (changes if changes is None else changes.tolist()) == told
+
+
 def test_other_positions() -> None:
     m = four_bar(12)
     k = da.compile(m)

@@ -128,6 +128,26 @@ def test_the_place_of_an_extreme_is_the_first_of_equal_ones(
     assert ends.ravel().tolist() == [extremes["min"][1], extremes["max"][1]]
 
 
+@pytest.mark.parametrize("count", [1, 3, 8, 21])
+def test_sums_beside_extremes_count_no_position_twice(count: int, tmp_path: Path) -> None:
+    """The last block of lanes is filled with the last position, which has no weight in a sum."""
+    graph, values = Graph(), np.cos(1.0 + 2.0 * np.arange(count))
+    program = Program(graph, (graph.input("channel", "x", np.ones(1)), graph.constant(2.0)))
+    slots = ((0, "peak"), (0, "sum"), (0, "square"), (0, "power8"), (0, "min"), (0, "max"), (1, "sum"))
+    wanted = [abs(values).max(), values.sum(), (values**2).sum(), (values**8).sum()]
+    wanted += [values.min(), values.max(), 2.0 * count]
+    out, code = np.empty(len(slots)), np.empty(1, np.uint8)
+    for lanes in (1, 2, 4, 8):
+        path, blocks = parallel_runs.path_array(values[:, None], np.zeros(0), lanes, weighted=True)
+        run = compile_module(llvm_text.grid(program, lanes, slots), lanes)
+        run(np.zeros(1), path, out, code, (0, 2, 1, blocks))
+        assert out == pytest.approx(wanted, rel=1e-13, abs=1e-15), lanes
+    card = shared(tmp_path, c_text.emit_reduced(program, slots), "card")
+    given = [pointer(a) for a in (np.zeros(1), values, np.zeros(1), out, code)]
+    card.reduced(*given, *map(ctypes.c_longlong, (0, 1, 1, count)))
+    assert out == pytest.approx(wanted, rel=1e-13, abs=1e-15)
+
+
 def test_a_peak_that_is_the_same_everywhere_is_at_the_first_position() -> None:
     """The reaction at the pin of an arm that turns evenly is m r w^2 in every position, and its rounding is not."""
     r = da.compile(

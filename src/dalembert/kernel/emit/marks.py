@@ -50,7 +50,7 @@ def _seldom(
     flags, none = program.flags, _none(t)
     unsure = _any(t, flags.unsure, names, "ult")
     asking = t.let(f"or {t.bit} {unsure}, {turned if flags.locked else none}")
-    asks = some(t, _but(t, asking, rest) if flags.rest else asking)
+    asks = some(t, _but(t, asking, rest))
     t.put(f"br i1 {asks}, label %ask, label %settled")
     t.lines.append("ask:")
     inside = dict(names)

@@ -160,11 +160,9 @@ def _on_line(
     assert rotation is not None
     (f, k), (g, n) = slides = _of(joint, Along)
     ball, other, u = _arms(slides[0], link)
-    forward = int(f.j[k]) == link
-    r = pose.rotation[other] if forward else rotation
-    offset = space.rotate(r, m.target[f.row[k]] * f.axis[k] + m.target[g.row[n]] * g.axis[n])
+    r = pose.rotation[other] if int(f.j[k]) == link else rotation
     e = space.rotate(r, space.cross(f.axis[k], g.axis[n]))
-    base = _point(pose, other, u) + (offset if forward else -offset) - space.rotate(rotation, ball)
+    base = _point(pose, other, u) - space.rotate(rotation, ball)
     span = base + space.rotate(rotation, ends[0]) - _point(pose, *ends[1:])
     along = space.dot(span, e).item()
     h = out.root(m.graph, square - space.dot(span, span).item() + along * along, square)
