@@ -375,3 +375,14 @@ def test_a_position_is_the_same_by_its_number_and_by_the_value_of_its_drive(
     assert [problem.endswith(": not asked") for problem in student.problems] == [True] * (
         outcome == "missing"
     )
+
+
+@pytest.mark.parametrize(("at", "outcome"), [("60 deg", "right"), ("2", "missing"), ("61 deg", "missing")])
+def test_without_a_problem_a_position_is_the_one_that_the_key_names(
+    at: str, outcome: str, tmp_path: Path
+) -> None:
+    """A key that is a table alone knows no drive: its words for a position are compared as they are."""
+    key = [{"quantity": "effort", "of": "O2", "at": "60 deg", "value": 243.2, "unit": "lbf*in", "marks": 4}]
+    found = marked(tmp_path, f"- {{quantity: effort, of: O2, at: {at}, value: 243.2 lbf*in}}", key)
+    assert [m.outcome for m in found.marks] == [outcome]
+    assert (found.total, found.most) == (4.0 if outcome == "right" else 0.0, 4.0)

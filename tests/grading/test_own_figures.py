@@ -27,6 +27,19 @@ def machine(**changes: Any) -> Any:
     return m.with_values({"links.coupler.center": (0.09, 0.04), **changes})
 
 
+def scaled(m: Any, size: float) -> Any:
+    """A machine in another size, with the same masses, moments of inertia and loads."""
+    tree = m.to_tree()
+
+    def length(x: str | float) -> str:
+        return f"{float(str(x).removesuffix(' m')) * size!r} m"
+
+    for link in tree["links"].values():
+        link["points"] = {name: [length(x) for x in at] for name, at in link["points"].items()}
+        link |= {"center": [length(x) for x in link["center"]]} if "center" in link else {}
+    return da.mechanism(tree)
+
+
 def given(r: Any, quantity: str, of: str, value: Any, **more: Any) -> Any:
     said = " rad/s^2" if quantity == "acceleration" else ""
     shown = [f"{float(x):.5g}" for x in value] if np.ndim(value) else f"{float(value):.5g}{said}"
@@ -55,9 +68,10 @@ def judged(r: Any, sheet: dict[str, Any]) -> tuple[dict[str, str], list[str]]:
     return {names[n]: how for n, how in found.follows.items()}, [names[n] for n in found.first]
 
 
+@pytest.mark.parametrize("turn", [1.0, 2.2, 4.0, 5.6])
 @pytest.mark.parametrize("off", [(40.0, -60.0), (-13.0, 2.0), (0.0, 150.0)])
-def test_a_slip_carried_on_is_right_behind_it(off: tuple[float, float]) -> None:
-    r = da.dynamics(machine())
+def test_a_slip_carried_on_is_right_behind_it(off: tuple[float, float], turn: float) -> None:
+    r = da.dynamics(machine(**{"drives.O2.position": turn}))
     follows, first = judged(r, carried(r, np.array(off)))
     assert first == ["A"]
     assert follows == {"O2": "sums of forces on crank", "T": "moments about O2 on crank"}
@@ -314,9 +328,11 @@ def test_what_follows_from_right_figures_is_not_carried_on() -> None:
     assert judged(r, sheet) == ({}, [])
 
 
-def test_a_component_follows_from_no_equation_that_has_the_other_one() -> None:
-    """The moments about O2 join torque and x component where y is on the sheet, and not as if y were nothing."""
-    r = da.dynamics(machine())
+@pytest.mark.parametrize(("size", "turn"), [(1.0, 1.0), (1e-4, 1.0), (1.0, 1.5)])
+def test_a_component_follows_from_no_equation_that_has_the_other_one(size: float, turn: float) -> None:
+    """The moments about O2 join torque and x component where y is on the sheet, and not as if y were nothing: in a
+    machine of any size, and where y has hardly an arm."""
+    r = da.dynamics(scaled(machine(**{"drives.O2.position": turn}), size))
     arm, force = r.position("coupler")[0] - r.position("crank")[0], r.reaction("A", on="crank")[0]
     right = float(r.effort("O2")[0])
     rest = -(right + cross(arm, force))  # what acts on the crank besides
@@ -406,13 +422,17 @@ def test_two_moments_settle_no_force_where_their_arms_are_nearly_in_line(lean: f
     assert ("B" in judged(r, sheet)[0]) is follows
 
 
-@pytest.mark.parametrize("part", ["x", "y"])
-def test_a_force_that_is_stated_twice_is_one_force(part: str) -> None:
-    """Whole and by a component: what follows from it still does."""
+@pytest.mark.parametrize("again", ["x", "y", "xx", "xy", "coupler", "coupler x"])
+def test_a_force_that_is_stated_twice_is_one_force(again: str) -> None:
+    """Whole, by components, and on the other link: what follows from it still does."""
     r = da.dynamics(machine())
     sheet = carried(r, np.array([40.0, -60.0]))
-    component = sheet["A"].given.value["xy".index(part)]
-    sheet["A again"] = given(r, "reaction", "A", component, on="crank", component=part)
+    force = sheet["A"].given.value
+    if again.startswith("coupler"):
+        sheet["A on the other"] = given(r, "reaction", "A", -force, on="coupler")
+    for k, part in enumerate(again.removeprefix("coupler").strip()):
+        component = force["xy".index(part)]
+        sheet[f"A again {k}"] = given(r, "reaction", "A", component, on="crank", component=part)
     follows, first = judged(r, sheet)
     assert first == ["A"]
     assert {name: follows[name] for name in ("O2", "T")} == {
@@ -423,15 +443,39 @@ def test_a_force_that_is_stated_twice_is_one_force(part: str) -> None:
 
 @pytest.mark.parametrize("off", [-30.0, 30.0])
 @pytest.mark.parametrize("on", ["tip", "arm"])
-def test_a_violated_sum_along_one_axis_changes_nothing_across(off: float, on: str) -> None:
-    """Two arms welded together: of the sum along x of the tip only sizes are stated, both along x alone wrong."""
+@pytest.mark.parametrize("part", ["magnitude", "x"])
+def test_a_violated_sum_along_one_axis_changes_nothing_across(part: str, off: float, on: str) -> None:
+    """Two arms welded together: of the sum along x of the tip only sizes are stated, both along x alone wrong, or one
+    component, whichever way it is counted."""
     r = da.statics(arms(0.4))
     p, o = r.reaction("P", on=on)[0], r.reaction("O", on="arm")[0]
     sense = 1.0 if on == "tip" else -1.0
+    of_p = p[0] + sense * off if part == "x" else np.hypot(p[0] + sense * off, p[1])
     sheet = {
-        "P": given(r, "reaction", "P", np.hypot(p[0] + sense * off, p[1]), on=on, component="magnitude"),
+        "P": given(r, "reaction", "P", of_p, on=on, component=part),
         "O": given(r, "reaction", "O", np.hypot(o[0] + off, o[1]), on="arm", component="magnitude"),
     }
     found = own_figures(SheetEquations(r), list(sheet.values()))
     assert found.slip == "sum of forces along x on tip"
     assert found.follows == {1: "equations, all but one slip in the sum of forces along x on tip"}
+
+
+@pytest.mark.parametrize(("joint", "slip"), [("A", "sum of forces along x on coupler"), ("O2", "")])
+def test_a_sum_is_violated_through_a_joint_of_its_link(joint: str, slip: str) -> None:
+    """A force on the coupler that no drawing has, through its own pin or through a bearing that is no joint of it."""
+    r = da.dynamics(machine())
+    where = r.position("crank")[0] if joint == "O2" else r.position("coupler")[0]
+    tree = r.mechanism.to_tree()
+    turn = float(r.angle("coupler")[0])
+    across = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    tree["links"]["coupler"]["points"]["N"] = (across @ (where - r.position("coupler")[0])).tolist()
+    tree.setdefault("loads", {})["E"] = {"type": "force", "on": "coupler", "at": "N", "value": [60, 0]}
+    other = da.dynamics(da.mechanism(tree))
+    effort = given(r, "effort", "O2", float(other.effort("O2")[0]))
+    sizes = [
+        given(r, "reaction", j, np.hypot(*other.reaction(j)[0]), component="magnitude")
+        for j in ("A", "O2", "B", "O4")
+    ]
+    of_b = given(r, "reaction", "B", other.reaction("B")[0, 0], component="x")
+    for sheet in ([effort, *sizes], [of_b, effort, *sizes]):
+        assert own_figures(SheetEquations(r), sheet).slip == slip

@@ -17,9 +17,10 @@ from dalembert.grading.file_answers import computed_text
 from dalembert.grading.marking.rubric import SHARES, Rubric, load_rubric, read_rubric
 from dalembert.grading.marking.student_marks import NAMED, Mark
 from dalembert.grading.quantities import Series
-from dalembert.grading.tolerance import Closeness
+from dalembert.grading.tolerance import Closeness, relative
 from dalembert.grading.value_errors import of_units
 from dalembert.grading.wrong.wrong_problems import _scaling
+from dalembert.units import Units
 
 DEG = math.pi / 180
 
@@ -254,3 +255,15 @@ def test_one_mistake_costs_half_a_figure_at_least_and_its_cap_at_most(tmp_path: 
     rubric = load_rubric(tmp_path / "rubric.yaml")
     kept = {k: rubric.shares[k] for k in ("named", "datum", "concept", "sign")}
     assert (kept, rubric.cap) == ({"named": 0.6, "datum": 0.9, "concept": 0.6, "sign": 0.5}, 0.25)
+
+
+def test_a_tolerance_may_be_nothing_but_not_less() -> None:
+    assert relative("0 N", 200.0, "force", Units()) == relative("0 %", 200.0, "force", Units()) == 0.0
+    assert relative("2 deg", 200.0, "angle", Units()) == pytest.approx(math.radians(2))
+    assert relative("3 N", 0.0, "force", Units()) == 3.0
+    for below, said in (
+        ("-1 N", "'-1 N' is below 0; write one of 0 or more"),
+        ("-1 %", "not a tolerance in percent"),
+    ):
+        with pytest.raises(da.ModelError, match=said):
+            relative(below, 200.0, "force", Units())

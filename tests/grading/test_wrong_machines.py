@@ -76,6 +76,20 @@ def test_only_a_slider_behind_a_turning_crank_has_formulas() -> None:
         assert efforts(da.dynamics(m), "r w^2") == {}
 
 
+def test_geometry_misread_in_a_static_problem_is_solved_without_inertia() -> None:
+    """A machine with masses that moves, as statics is asked: gravity and loads alone, in the new poses too."""
+    m = slider_crank(1.0, 0.0, gravity="standard").with_values({"links.rod.mass": 3.0})
+    found = efforts(da.statics(m), "", but="assembly mode")
+    for words, values in {
+        "the length of crank is doubled: crank for stroke": {"links.crank.points.A": [0.1, 0.0]},
+        "the length of rod is ten times too large": {"links.rod.points.B": [2.0, 0.0]},
+        "the position of O is misread by 10 deg": {"drives.O.position": 1.0 + math.radians(10)},
+    }.items():
+        anew = float(da.statics(m.with_values(values)).effort("O")[0])
+        assert found[words][0] == pytest.approx(anew, rel=1e-9)
+        assert float(da.dynamics(m.with_values(values)).effort("O")[0]) != pytest.approx(anew, rel=0.01)
+
+
 def lever(turn: float, direction: float = 0.0, pivot: float = -0.2, **more: Any) -> da.Mechanism:
     """A crank of 100 mm whose block slides along a heavy lever, turning about a point of the ground."""
     flat = math.atan2(0.1 * math.sin(turn) - pivot, 0.1 * math.cos(turn)) - direction

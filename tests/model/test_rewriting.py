@@ -314,6 +314,16 @@ def test_json_and_toml_keep_all_other_characters() -> None:
     assert text_of(other, "toml") == expected.replace('"b.c"', "bc")
 
 
+@pytest.mark.parametrize("form", FORMS)
+def test_letters_of_other_languages_are_written_as_they_are(form: str) -> None:
+    """In values that replace others, and in keys that were not there."""
+    old = loads(tree_text({"title": "Bar", "links": {"ground": {}, "größe": {}}}, form), form)
+    text = text_of(old.with_values({"title": "Prüfstand", "source": "Müller", "links.größe.mass": 2.0}), form)
+    assert all(word in text for word in ("Prüfstand", "Müller", "größe"))
+    assert "\\u" not in text
+    assert loads(text, form).title == "Prüfstand"
+
+
 def test_a_table_that_others_lie_within_is_added_after_them() -> None:
     text = "[links.ground.points]\nO = [0, 0]\n\n[links.bar.points]  # of the bar\nO = [0, 0]\n"
     other = loads(text, "toml").with_values({"links.bar.mass": 3})

@@ -247,6 +247,30 @@ def test_meshes_that_are_no_solids(tmp_path: Path) -> None:
         assert says in str(caught.value)
 
 
+NOT_CLOSED = (
+    "the surface of the mesh 'bad.stl' is not closed, so it has no volume; close its holes, or give mass, center "
+    "and inertia"
+)
+
+
+@pytest.mark.parametrize("bad", ["nan", "inf"])
+@pytest.mark.parametrize(
+    ("every", "said"),
+    [(False, NOT_CLOSED), (True, "the mesh 'bad.stl' has no triangles; export it again as STL")],
+)
+def test_triangles_with_a_corner_nowhere_are_left_out(
+    every: bool, said: str, bad: str, tmp_path: Path
+) -> None:
+    corners = {"000": "0 0 0", "100": "1 0 0", "010": "0 1 0", "001": f"0 0 {bad}"}
+    corners = dict.fromkeys(corners, f"0 0 {bad}") if every else corners
+    facets = ["".join(f"vertex {corners[c]}\n" for c in face) for face in FACES]
+    loops = [f"facet normal 0 0 0\nouter loop\n{facet}endloop\nendfacet\n" for facet in facets]
+    (tmp_path / "bad.stl").write_text(f"solid bad\n{''.join(loops)}endsolid bad\n")
+    with pytest.raises(ModelError) as caught:
+        StlMesh(file=MeshFile("bad.stl", str(tmp_path)), density=1)
+    assert str(caught.value) == said
+
+
 FACES = (("000", "010", "100"), ("000", "100", "001"), ("000", "001", "010"), ("100", "010", "001"))
 
 

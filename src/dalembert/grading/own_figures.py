@@ -146,7 +146,7 @@ class OwnSheet:
         _, matrix, part = of
         rows = list(self._usable(n, [k for k in taken if k != n]))
         rank = int(np.linalg.matrix_rank(matrix, 1e-7))
-        requested = matrix["xyz".index(part)][None] if part in ("x", "y", "z") and len(matrix) > 1 else matrix
+        requested = matrix["xyz".index(part)][None] if part in ("x", "y", "z") else matrix
         need = int(np.linalg.matrix_rank(requested, 1e-7))
         for row, c, b, wrong in rows if need == 1 else ():
             unit = requested[int(np.argmax(np.abs(requested).max(axis=1)))]

@@ -114,7 +114,7 @@ class SheetEquations:
         if of is None or of[2] in ("magnitude", "direction"):
             return None
         n, rows, part = of
-        rows = rows if part is None or len(rows) == 1 else rows["xyz".index(part)][None]
+        rows = rows if part is None else rows["xyz".index(part)][None]
         return n, rows, np.atleast_1d(np.asarray(f.given.value, float))
 
     def stated(self, figures: Sequence[StudentValue], which: Sequence[int]) -> dict[int, OwnNumbers]:

@@ -26,7 +26,7 @@ def is_stream(path: str | os.PathLike[str]) -> bool:
     return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FileSource:
     """A file's name, text and format, and its lines by path, computed when first needed.
 
@@ -35,12 +35,12 @@ class FileSource:
     """
 
     name: str
-    find: Callable[[], Lines] = field(repr=False, compare=False)
+    find: Callable[[], Lines] = field(repr=False)
     text: str = field(default="", repr=False)
     form: str = "yaml"
     data: str = ""
     """Another folder that columns of numbers may be read from."""
-    copied: Mapping[Path, Path] = field(default_factory=dict, repr=False, compare=False)
+    copied: Mapping[Path, Path] = field(default_factory=dict, repr=False)
     """Paths of parts that are copies -> path of the copy that a file states."""
 
     @property

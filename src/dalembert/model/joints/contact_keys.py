@@ -108,9 +108,10 @@ def check_contact(keys: object) -> object:
     return keys
 
 
-def refuse_contact(keys: object, kind: str) -> None:
+def refuse_contact(keys: object) -> None:
     """Refuse a contact on a joint that transmits forces in all directions."""
     if isinstance(keys, Mapping) and "contact" in keys:
+        kind = str(keys.get("type", "joint"))
         article = "an" if kind[0] in "aeiou" else "a"
         raise ModelError(
             f"{article} {kind} joint transmits forces in all directions",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field, ValidationInfo, model_validator
@@ -193,8 +193,8 @@ class JointPart(Part):
     @model_validator(mode="before")
     @classmethod
     def _holds_all_round(cls, keys: object) -> object:
-        if "contact" not in cls.model_fields and isinstance(keys, Mapping) and "contact" in keys:
-            refuse_contact(keys, str(keys.get("type", "joint")))
+        if "contact" not in cls.model_fields:
+            refuse_contact(keys)
         return keys
 
     @model_validator(mode="after")

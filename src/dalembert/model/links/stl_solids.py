@@ -95,7 +95,7 @@ def _read(file: MeshFile, changed: int) -> tuple[float, Array, Array]:
     except Exception as error:  # the package raises errors of many kinds for a file that is no mesh
         problem = f"the mesh {file.written!r} cannot be read: {error}"
         raise ModelError(problem, "export it again as STL") from None
-    if not len(mesh.faces) or not np.isfinite(mesh.vertices).all():
+    if not len(mesh.faces):  # those with a corner that is no number are left out
         raise ModelError(f"the mesh {file.written!r} has no triangles", "export it again as STL")
     if not mesh.is_watertight or not mesh.is_winding_consistent:
         what = f"the surface of the mesh {file.written!r} is not closed, so it has no volume"
