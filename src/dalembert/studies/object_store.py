@@ -163,7 +163,7 @@ def is_address(target: object) -> bool:
 
 def backend(above: str, address: str) -> Backend:
     """Backend of an address, below ``above``: fsspec, or obstore where fsspec lacks the package."""
-    check_installed("fsspec", f"a study at {address}", "study")
+    check_installed("fsspec", f"a study at {address}", "cloud")
     try:
         return ByFsspec(above)
     except ImportError as error:
