@@ -730,3 +730,22 @@ def test_a_member_begins_at_the_point_that_is_named_first(
     assert curve.member.ends == ((first, "AB".replace(first, "")))
     assert curve.member.start.tolist() == [*places[first], 0]
     assert curve.member.along == pytest.approx([1 if first == "A" else -1, 0, 0])
+
+
+@pytest.mark.parametrize("load", [-100.0, 500.0])
+def test_a_post_that_is_only_pressed_has_its_diagram_too(load: float) -> None:
+    """As one that is only pulled."""
+    post = {"points": {"O": [0, 0], "P": [0, 0.5]}, "mass": 2.0, "center": [0, 0.4]}
+    m = da.mechanism(
+        {
+            "gravity": [0, -9.81],
+            "links": {"ground": {"points": {"O": [0, 0]}}, "post": post},
+            "joints": {"O": {"type": "pin", "links": ["ground", "post"]}},
+            "drives": {"O": {"position": [0]}},
+            "loads": {"W": {"type": "force", "on": "post", "at": "P", "value": [0, load]}},
+        }
+    )
+    scenes = member_scenes(member_table(da.statics(m)), Notation())
+    assert [s.title for s in scenes] == ["N, axial, O = 0°", "N, axial of post"]
+    (drawn,) = scenes[1].numbers.values()
+    assert (min(drawn), max(drawn)) == pytest.approx(sorted((load - 19.62, load)))

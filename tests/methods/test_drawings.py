@@ -244,6 +244,19 @@ def test_animations(kind: str, tmp_path: Path) -> None:
             assert arrow.length * animation.scales["force"] == pytest.approx(arrow.value, rel=1e-9)
 
 
+def test_a_frame_says_where_both_drives_are_and_what_they_do() -> None:
+    """In the order of the file."""
+    r = da.dynamics(da.five_bar(positions=3))
+    for k, frame in enumerate(da.draw.animation(r).frames):
+        (said,) = (t.text for t in frame.texts() if ", effort " in t.text)
+        parts = [part.replace("−", "-").split(", effort ") for part in said.split("; ")]
+        for drive, (place, effort) in zip(r.drives, parts, strict=True):
+            name, _, angle = place.partition(" = ")
+            assert name == drive
+            assert float(angle.rstrip("°")) == pytest.approx(np.degrees(r.drive_position(drive)[k]), abs=0.01)
+            assert float(effort.split()[0]) == pytest.approx(r.effort(drive)[k], rel=1e-3)
+
+
 def test_frames_drawn_over_what_stays_still_are_pictures_of_both(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     image = pytest.importorskip("PIL.Image")

@@ -20,6 +20,7 @@ from dalembert.views.space.journal_details import along_axis, journal_detail
 from dalembert.views.space.space_guides import slide_on_paper
 from tests.methods.readable import text_over_lines, text_overlaps
 from tests.oracles.space import rough_machines
+from tests.space.test_friction import body
 
 MACHINES = ("rssp", "press", *(pytest.param(name, marks=pytest.mark.long) for name in ("rssr", "rccc")))
 JOURNALS = (("rssr", "O"), ("rssr", "F"), ("rccc", "A"), ("rccc", "B"), ("press", "R"))
@@ -171,3 +172,17 @@ def test_at_rest_both_ends_are_drawn() -> None:
         assert text_overlaps(scene) == text_over_lines(scene) == []
         texts = [t.text for t in scene.texts()]
         assert sum(t.startswith(("Low end of O, ", "High end of O, ")) for t in texts) == 2
+
+
+@pytest.mark.parametrize(("speed", "along"), [("1 m/s", "−16.00"), ("-1 m/s", "16.00")])
+def test_the_table_of_a_body_has_friction_alone_in_its_own_row(speed: str, along: str) -> None:
+    """A guide of two ends 50 mm off with 10 N across and 4 N·m: 35 N and 45 N bear, a fifth of both rubs, against the
+    slide; what friction has no part in has a dash, and what the guide could carry and does not a 0."""
+    guide = {"type": "prismatic", "axis": [1, 0, 0], "friction": {"coefficient": 0.2, "guide": [0.05, 0.05]}}
+    r = body(guide, [0, 10, 0], [0, 0, 4], P={"position": 0, "speed": speed})
+    texts = [t.text for t in da.draw.free_body(r, "body", at=1).texts()]
+    head = texts.index("F_{x'}")
+    assert texts[head : head + 6] == [f"{of}_{{{axis}'}}" for of in "FM" for axis in "xyz"]
+    assert texts[head + 6 : head + 12] == ["N"] * 3 + ["N·m"] * 3
+    assert texts[head + 12 : head + 19] == ["P", along, "−10.00", "0", "0", "0", "−4.000"]
+    assert texts[head + 19 : head + 26] == ["friction", along, "–", "–", "–", "–", "–"]
