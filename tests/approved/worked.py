@@ -136,6 +136,16 @@ ONE_REDUNDANT = da.lifted(da.four_bar(positions=1), {}, {"B": "spherical"})
 """A plane four-bar in space with a ball: one constraint too many."""
 
 
+def rods(mass: bool) -> da.Mechanism:
+    """The spatial four-bar with the far end of its rod named first, and perhaps a rod without mass."""
+    tree: Any = da.load(examples()["rssr"]).to_tree()
+    tree["joints"] = {name: tree["joints"][name] for name in "BAOC"}
+    if not mass:
+        rod = tree["links"]["rod"]
+        tree["links"]["rod"] = {"points": rod["points"]}
+    return da.mechanism(tree)
+
+
 def report(m: Any, at: int | None = None, **options: Any) -> Callable[[], str]:
     def written() -> str:
         made = m() if callable(m) else da.loads(m)
@@ -157,6 +167,8 @@ WORKED_OUT: dict[str, Callable[[], str]] = {
     "solution-rssr-in-link-axes": report(
         lambda: da.load(examples()["rssr"]), 4, notation=da.Notation(order="on-by", axes="link", units="SI")
     ),
+    "solution-rssr-by-matrix": report(lambda: rods(True), 4, methods=["matrix"]),
+    "solution-rssr-with-a-light-rod": report(lambda: rods(False), 4, methods=["matrix"]),
     "solution-rough-joints": rough_joints,
     "solution-hydraulic-lift": report(lambda: da.load(cases()["vw-01-hydraulic-lift"])),
     "solution-one-redundant": report(lambda: ONE_REDUNDANT, methods=["steps", "matrix"]),

@@ -377,3 +377,33 @@ def test_a_drive_and_a_load_that_both_put_work_in(couple: float, speed: float) -
     assert (e.cycle, e.share) == (pytest.approx(0, abs=1e-15), {"O": pytest.approx(1)})
     assert e.put_in == pytest.approx(e.lost)
     assert "O      1.000           100.0 %" in str(da.report(r))
+
+
+def test_a_pin_without_a_force_has_no_couple_to_speak_of() -> None:
+    """Of two shafts that turn one is loaded: only its pin has a sense of friction in the report."""
+    pin = {"type": "pin", "friction": {"coefficient": 0.1, "radius": 0.05, "circle": "tan"}}
+    tree = {
+        "links": {
+            "ground": {"points": {"O": [0, 0], "Q": [1, 0]}},
+            "a": {"points": {"O": [0, 0]}},
+            "b": {"points": {"Q": [0, 0]}},
+        },
+        "joints": {"O": pin | {"links": ["ground", "a"]}, "Q": pin | {"links": ["b", "ground"]}},
+        "drives": {
+            "O": {"position": 0, "speed": "2 rad/s"},
+            "Q": {"position": 0, "speed": "3 rad/s"},
+        },
+        "loads": {"F": {"type": "force", "on": "a", "at": "O", "value": [100, 0]}},
+    }
+    text = " ".join(str(da.report(da.statics(da.mechanism(tree)))).split())
+    said = (
+        "O: link 2 a turns counter-clockwise on 1 ground, so friction's couple on it is clockwise, and its force "
+        "touches the circle on the side that makes this couple."
+    )
+    assert said in text
+    assert text.count("so friction's couple on it is") == 1
+    tree["loads"]["F"] |= {"on": "b", "at": "Q"}  # type: ignore[index]
+    text = " ".join(str(da.report(da.statics(da.mechanism(tree)))).split())
+    back = said.replace("O: link 2 a turns counter-clockwise", "Q: link 3 b turns clockwise")
+    assert back.replace("it is clockwise", "it is counter-clockwise") in text
+    assert text.count("so friction's couple on it is") == 1

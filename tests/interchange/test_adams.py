@@ -297,6 +297,10 @@ def test_a_part_may_have_the_name_of_its_model(tmp_path: Path) -> None:
     [
         ("displacement", "0.2 - 0.3*time**2*(sin(time)**2 + cos(time)**2)", True),
         ("displacement", "0.2 - 0.3*time**3", False),
+        ("displacement", "0.2 - 0.3*(time + 1)**3/(time + 1)", True),  # a parabola, with rounding
+        ("displacement", "0.3*(time + 1)**3/(time + 1) - 0.2", True),
+        ("displacement", "0.2 + 0.3*time**2 - 1e-8*time**3", False),
+        ("displacement", "0.2 + 1e-14*time**3", False),
         ("velocity", "0.5 - 0.1*time", True),
         ("velocity", "0.5 - 0.1*time**2", False),
         ("velocity", "0.5 + 0.1*time**2", False),

@@ -30,6 +30,9 @@ ADAMS = {
         "there is no marker '.M.arm.q'; make it first"
     ),
     "marker create marker_name = .M.arm.p, .M.arm.q": "marker_name has 2 values; give one",
+    "marker create marker_name = .M.arm.p location = 1, inf, 0": "location has not 3 finite numbers; give 3",
+    "marker create marker_name = .M.arm.p location = 1, 0": "location has not 3 finite numbers; give 3",
+    "marker create marker_name = .M.arm.p location = 1, x, 0": "location: 'x' is not a number; write numbers",
     "constraint create motion_generator motion_name = .M.N joint_name = .M.Q function = \"1\"": "there is no joint 'Q'",
     "constraint create motion_generator motion_name = .M.N joint_name = .M.O type_of_freedom = translational "
     'function = "1"': "joint 'O' has no such freedom; write another type_of_freedom",

@@ -14,6 +14,7 @@ from dalembert.bundled import examples
 from dalembert.errors import ModelError
 from dalembert.interchange.file_formats import foreign_bytes, read_foreign
 from dalembert.interchange.link_graph import inertia_matrix
+from dalembert.interchange.robots.mjcf_geoms import combined
 from tests.interchange.test_ondsel import SCREW
 from tests.interchange.written_files import largest_difference, read_back
 from tests.space.test_gears import pair, wheel
@@ -312,6 +313,21 @@ def test_masses_are_of_inertials_or_of_geoms(rule: str, masses: tuple[float, flo
     moments = [2 / 6 if mass == 2 else float(mass == 3) for mass in masses]  # of a cube; as given; of nothing
     for link, moment in zip("ab", moments, strict=True):
         assert inertia_matrix(m.inertia(link)) == pytest.approx(moment * np.eye(3), abs=1e-15)
+
+
+def test_a_solid_ellipsoid_has_its_mass_by_density(tmp_path: Path) -> None:
+    """4/3 pi a b c; moments are a fifth of it times the squares of the half axes across. Of nothing there is none."""
+    geom = '<geom type="ellipsoid" size="0.1 0.2 0.3" pos="1 2 3" density="500"/>'
+    bodies = "".join(f'<body name="{n}"><joint type="hinge"/>{g}</body>' for n, g in (("a", geom), ("b", "")))
+    (tmp_path / "x.xml").write_text(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>", encoding="utf-8")
+    m, _ = read_foreign(tmp_path / "x.xml")
+    mass = 4 / 3 * math.pi * 0.006 * 500
+    assert (m.mass("a"), m.center("a")) == (pytest.approx(mass), pytest.approx((1, 2, 3)))
+    assert m.inertia("a") == pytest.approx([mass / 5 * s for s in (0.04 + 0.09, 0.01 + 0.09, 0.01 + 0.04)])
+    assert (m.mass("b"), m.inertia("b")) == (0, 0)
+    nothing = combined([])
+    assert [np.shape(x) for x in nothing] == [(), (3,), (3, 3)]
+    assert not any(np.any(x) for x in nothing)
 
 
 @pytest.mark.parametrize("first", ["P", "B"])

@@ -19,7 +19,7 @@ PLAIN = (
     *("length", "angle", "time", "mass", "force", "moment", "pressure", "speed", "angular_speed", "area"),
     *("section_modulus", "second_moment", "inertia", "stiffness", "power", "flow"),
 )
-OF_UNIT = {KINDS[kind].si: kind for kind in reversed(PLAIN)}
+OF_UNIT = {KINDS[kind].si: kind for kind in PLAIN}
 """SI unit -> the kind that is shown for it."""
 STATED = re.compile(rf"({NUMBER}) (\S+)")
 
