@@ -240,7 +240,12 @@ def test_the_comparison_as_json(run: Run, folder: Path, monkeypatch: pytest.Monk
     assert (ran.status, ran.out.splitlines()[-1][:18]) == (1, "FAILED: 2 problems")
     written = json.loads((folder / "all.json").read_text(encoding="utf-8"))
     assert (written["passed"], written["not_read"], written["answers"]) == (False, 1, printed["answers"])
-    assert run("validate", "--json", "all.json").status == 2
+    monkeypatch.setattr("dalembert.bundled.cases", lambda: {"right": 1 / 0})  # refused before the work
+    again = run("validate", "--json", "all.json")
+    assert (again.status, again.err) == (
+        2,
+        "all.json exists; name another file, or overwrite it: --force, in Python overwrite=True\n",
+    )
 
 
 def test_a_verdict_has_a_line_for_each_answer_and_its_counts(capsys: pytest.CaptureFixture[str]) -> None:

@@ -30,6 +30,12 @@ b, line 33: effort of O2: published 250, computed 243.2376, 2.7 % apart,
 
 3 answers, 0 with an exact value; 1 not met.
 """
+BY_FILE = """
+case  answers  exact  agree   ok
+--------------------------------
+a           1      0      1  yes
+b           2      0      1   NO
+"""
 
 
 def test_all_answers_of_several_files_stand_below_their_names(run: Run, folder: Path) -> None:
@@ -39,6 +45,8 @@ def test_all_answers_of_several_files_stand_below_their_names(run: Run, folder: 
     for name, answers in (("a.yaml", a), ("b.yaml", b)):
         (folder / name).write_text(text + answers, encoding="utf-8")
     assert run("check", "a.yaml", "b.yaml", "--all") == (1, CHECKED.lstrip("\n"), "")
+    by_file = BY_FILE + CHECKED[CHECKED.index("\nb, line") :]
+    assert run("check", "a.yaml", "b.yaml") == (1, by_file.lstrip("\n"), "")
     one = run("check", "a.yaml", "--all")
     assert (one.status, one.out.splitlines()[2][:12]) == (0, "effort of O2")
 

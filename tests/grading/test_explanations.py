@@ -65,6 +65,8 @@ OF_F = ("the angle of F is counted from the other axis", "named")
 REVERSED = "load F has the wrong sense, or the angle of F is counted clockwise"
 TURNED = "the position of O is counted from the other dead centre"
 DRAWN = "which a drawing may be: state a tolerance if it is one"
+TEN = ("load F is ten times too small", "named")
+UNIT = ("a factor of 1000 (mm and m, N and kN)", "unit")
 SHEETS: list[tuple[dict[str, Any], list[tuple[str, str]]]] = [
     # one mistake in the problem: the usual ones with the same figures beside it, the seldom ones not
     ({"Py": "20 N", "O": "48 N*m"}, [(REVERSED, "named")] * 2),
@@ -102,6 +104,11 @@ SHEETS: list[tuple[dict[str, Any], list[tuple[str, str]]]] = [
             ("may be: load F is ten times too small", "may_be"),
         ],
     ),
+    # a slip in what the mistake makes of a figure, where it explains more than that one
+    ({"Py": "-2 N", "O": "4 N*m", "Ox": "11.00 N"}, [TEN] * 2 + [OPPOSITE]),
+    ({"Py": "-2 N", "O": "4 N*m", "Ox": "-11000 N"}, [TEN] * 2 + [UNIT]),
+    ({"P": ["-20 N", "-10 N"], "O": "-12.00 N*m", "Ox": "30.00 N"}, [OF_F] * 2 + [OPPOSITE]),
+    ({"Py": "-2.00 N", "Ox": "11.00 N"}, [NONE] * 2),
     # nearly right
     ({"Py": "-19.6 N", "O": "-32.7 N*m"}, [("close: rounded too early, or a small slip", "rounding")] * 2),
     ({"Py": "-19.3 N", "O": "-32 N*m"}, [(f"{NONE[0]}; it is 3.6 % off, {DRAWN}", "unknown")]),
