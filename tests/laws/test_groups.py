@@ -12,6 +12,7 @@ from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.core.constraints import dense, measure, stack_rows
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.position import assur_groups
+from dalembert.core.position.assembly_modes import Wanted, distinct, measures, sort_modes
 from dalembert.core.position.assur_groups import (
     block_triangular,
     groups,
@@ -193,6 +194,46 @@ def test_a_turn_at_the_end_of_a_motion_that_ends_is_moved_back(start: float, goa
     assert met.met
     assert met.pose.turn[0] == pytest.approx(there[-1])
     assert met.phi == pytest.approx(measure(layout.algebra, layout.freedoms, met.pose.at(None))[0])
+
+
+def turned(layout: Layout, angles: list[float], at: list[tuple[float, float]]) -> Pose:
+    """Poses of a single moving link, by its angle and place."""
+    turn = np.column_stack([angles, np.zeros(len(angles))])
+    point = np.stack([np.array(at, float), np.zeros((len(at), 2))], axis=1)
+    return Pose(point, turn, layout.algebra.rotation(turn))
+
+
+def test_ways_of_closing_are_in_order_and_each_is_there_once() -> None:
+    """By distance from the given angles, whole turns aside; without those the highest first. Poses 1e-4 apart, whole
+    turns aside, are the same."""
+    points = {"O": [0, 0], "A": [0.5, 0]}
+    tree = {
+        "links": {"ground": {"points": {"O": [0, 0]}}, "arm": {"points": points}},
+        "joints": {"O": {"type": "pin", "links": ["ground", "arm"]}},
+        "drives": {"O": {"position": [0]}},
+    }
+    layout = da.kinematics(da.mechanism(tree)).compiled.layout
+    unit = layout.length
+    poses = turned(
+        layout, [0.3, 2.0, -1.0, 6.0], [(0, 0.1 * unit), (0, 0.4 * unit), (0, -0.2 * unit), (0, 0.2 * unit)]
+    )
+    unknown = Wanted(np.full(2, np.nan), np.full((2, 2), np.nan), None)
+    assert not unknown.any_known
+    assert sort_modes(layout, poses, unknown).tolist() == [1, 3, 0, 2]
+    along, height = measures(layout, poses)
+    assert along.tolist() == [0.0] * 4
+    assert height == pytest.approx([0.2, 0.8, -0.4, 0.4], abs=1e-6)  # of the link, and of its end in the pin
+    near = Wanted(np.array([0.2, 0.0]), np.full((2, 2), np.nan), None)
+    assert near.any_known
+    assert sort_modes(layout, poses, near).tolist() == [0, 3, 2, 1]  # off by 0.1, 0.48, 1.2 and 1.8
+    again = turned(
+        layout,
+        [0.3, 0.3 + 2 * np.pi, 0.3 + 0.9e-4, 0.3 - 1.1e-4, 0.3, 0.3],
+        [(0, 0), (0, 0), (0, 0), (0, 0), (0.9e-4 * unit, 0), (0, -1.1e-4 * unit)],
+    )
+    kept = distinct(layout, again)
+    assert kept.turn[:, 0].tolist() == [0.3, 0.3 - 1.1e-4, 0.3]
+    assert kept.point[:, 0, 1].tolist() == [0.0, 0.0, -1.1e-4 * unit]
 
 
 def test_links_with_a_fixed_angle_between_them_turn_together() -> None:

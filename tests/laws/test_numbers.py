@@ -99,6 +99,11 @@ def test_elastic_multipliers_have_the_least_energy() -> None:
     rest = some.forces(wrench)[0]
     np.testing.assert_allclose(j[0].T @ rest, wrench[0], rtol=1e-9)
     assert abs(rest[0]) < 1e-9
+    rigid = linear.compliant(least, np.zeros(6))  # nothing elastic: least-norm, as before
+    np.testing.assert_allclose(rigid.forces(wrench), least.forces(wrench), rtol=1e-12)
+    np.testing.assert_allclose(rigid.null, least.null, atol=1e-12)
+    alike = linear.compliant(least, 1e9 * compliance)  # only their ratios count
+    np.testing.assert_allclose(alike.forces(wrench)[0], x, rtol=1e-9)
 
 
 @pytest.mark.parametrize(
