@@ -401,6 +401,8 @@ def test_a_pin_without_a_force_has_no_couple_to_speak_of() -> None:
         "touches the circle on the side that makes this couple."
     )
     assert said in text
+    assert "M_f12 = −r_O F_12 = −0.005000 · 100.0 = −0.5000 N·m, clockwise about O" in text
+    assert "M_f13 = r_Q F_13 = 0.005000 · 0 = 0 N·m " in text
     assert text.count("so friction's couple on it is") == 1
     tree["loads"]["F"] |= {"on": "b", "at": "Q"}  # type: ignore[index]
     text = " ".join(str(da.report(da.statics(da.mechanism(tree)))).split())

@@ -70,7 +70,7 @@ def pin_lines(c: ReportContext, joint: str) -> list[Working]:
     force = float(np.hypot(*r.reaction(joint)[k]))
     couple = float(r.friction_moment(joint, on)[k])
     sign = "−" if couple * c.notation.torque < 0 else ""
-    sense = "clockwise" if couple < 0 else "counter-clockwise"
+    sense = f", {'clockwise' if couple < 0 else 'counter-clockwise'} about {joint}" if couple else ""
     other = i if on == j else j
     product = f"{sign}{radius} cdot {shown.number('force', force)}"
     return [
@@ -78,7 +78,7 @@ def pin_lines(c: ReportContext, joint: str) -> list[Working]:
         Working(
             f"M_{{f{shown.pair(other, on)}}} = {sign}r_{{{joint}}} {shown.reaction(joint, on)}",
             shown.with_factor(product, "moment", "length", "force"),
-            figure(shown, "moment", couple, f", {sense} about {joint}"),
+            figure(shown, "moment", couple, sense),
         ),
     ]
 
