@@ -153,8 +153,8 @@ def test_units_of_bare_numbers() -> None:
 
 def test_a_system_says_what_it_is_and_equals_its_like() -> None:
     flat, solid = System(plane, Couple(3)), System(Force([1, 0, 2]))
-    assert repr(flat) == "System(1 forces and 1 couples in plane)"
-    assert repr(solid) == "System(1 forces and 0 couples in space)"
+    assert repr(flat) == "System(1 force and 1 couple in plane)"
+    assert repr(solid) == "System(1 force and 0 couples in space)"
     assert (len(flat), len(solid)) == (2, 1)
     assert flat == System(plane, Couple(3))
     assert flat != System(plane, Couple(4))

@@ -154,7 +154,8 @@ class System(Drawn, Worked):
 
     def __repr__(self) -> str:
         where = "plane" if self.dimension == 2 else "space"
-        return f"System({len(self.forces)} forces and {len(self.couples)} couples in {where})"
+        forces, couples = len(self.forces), len(self.couples)
+        return f"System({forces} force{'s' * (forces != 1)} and {couples} couple{'s' * (couples != 1)} in {where})"
 
     # as an answer
 
