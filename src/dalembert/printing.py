@@ -27,15 +27,15 @@ def number(value: float, digits: int = 6) -> str:
 
 
 def range_text(ends: Iterable[str | None], unit: str = "") -> str:
-    """'3 to 7 N'; where an end is None: '3 N or more', '7 N or less', 'any value'.
+    """'3 to 7 N', or '3 N' where both ends are; where an end is None: '3 N or more', '7 N or less', 'any value'.
 
-    >>> range_text(("3", None), "N"), range_text((None, "7")), range_text((None, None), "N")
-    ('3 N or more', '7 or less', 'any value')
+    >>> range_text(("3", "3"), "N"), range_text(("3", None), "N"), range_text((None, "7")), range_text((None, None))
+    ('3 N', '3 N or more', '7 or less', 'any value')
     """
     low, high = ends
     if low is None and high is None:
         return "any value"
-    values = f"{low} to {high}" if low and high else low or high
+    values = f"{low} to {high}" if low and high and low != high else low or high
     return f"{values} {unit}".rstrip() + ("" if low and high else " or more" if low else " or less")
 
 

@@ -215,3 +215,40 @@ def test_a_contact_that_would_not_move_takes_the_sense_that_carries_furthest(tur
     most = 0.6 * (20 + 50 + 0.5 * 30)
     assert r.interval("floor")[0] == pytest.approx((-most, most), rel=1e-12)
     assert r.holding("floor")[0] == pytest.approx((-most, most), rel=1e-12)
+
+
+TRUSS_ON_AN_ARM = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], A: [0.5, 0], B: [0.5, 0.4]}, mass: 2 kg, center: [0.3, 0.1]}
+  p: {points: {A: [0, 0], C: [0.4, 0]}, mass: 1 kg, center: [0.2, 0]}
+  q: {points: {B: [0, 0], C: [0.5, 0]}, mass: 1 kg, center: [0.2, 0.05]}
+joints:
+  O: {type: pin, links: [ground, arm]}
+  A: {type: pin, links: [arm, p], RUB}
+  B: {type: pin, links: [arm, q], RUB}
+  C: {type: pin, links: [p, q], RUB}
+drives: {O: {position: 20 deg, speed: 2 rad/s, acceleration: 1 rad/s^2}}
+assembly: {arm: 20, p: 40, q: -20}
+"""
+
+
+def test_an_effort_that_no_friction_changes_is_one_value() -> None:
+    """Two bars and an arm are rigid together: friction of their pins is inside, and the torque of the arm is that
+    without it."""
+    rough = da.dynamics(
+        da.loads(TRUSS_ON_AN_ARM.replace("RUB", "friction: {coefficient: 0.2, radius: 10 mm}"))
+    )
+    smooth = da.dynamics(da.loads(TRUSS_ON_AN_ARM.replace("RUB", "")))
+    assert rough.status == ("at_rest",)
+    assert rough.interval("O")[0] == pytest.approx([smooth.effort("O")[0]] * 2, rel=1e-12)
+    assert rough.reasons == (
+        "No relative motion in A, B, C at O = 20 deg: their friction may have any value within the limits, "
+        "and O does not depend on it.",
+    )
+    assert "17.6549 N*m\n" in rough.text()
+    for end in rough.ends[0]:
+        for joint in "OABC":
+            assert end.reaction(joint)[0] == pytest.approx(smooth.reaction(joint)[0], rel=1e-9)
+        assert not np.nan_to_num(end.friction.moment).any()

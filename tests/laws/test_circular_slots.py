@@ -181,3 +181,12 @@ def test_a_kernel_has_the_radius_of_a_circular_slot_as_input() -> None:
     for radius in (0.15, 0.16):
         r = da.dynamics(m.with_values({"joints.P.radius": radius}))
         assert k([[radius]]).effort("O")[0] == pytest.approx(r.effort("O"), rel=1e-10)
+
+
+def test_where_angles_fit_two_modes_the_given_places_decide() -> None:
+    """A block that slides on a link of known angle, and in a circular slot: its angle is the same in both modes."""
+    case = random_case(36_006)
+    r = da.dynamics(da.mechanism(case.tree))
+    x, y, _ = case.tree["assembly"]["L10"]
+    assert r.position("L10")[0] == pytest.approx([x, y], abs=1e-9)
+    assert worst(disagreement(r, case.answer))[1] < 1e-9

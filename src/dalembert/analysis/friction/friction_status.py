@@ -134,8 +134,7 @@ RANGES: dict[tuple[bool, ...], str] = {
     (False, False): "",
 }
 NO_RATE = (
-    "No relative motion in {joints}{arc}: its friction may have any value within the limits, "
-    "and {names} {verb}."
+    "No relative motion in {joints}{arc}: {whose} friction may have any value within the limits, and {names}."
 )
 
 
@@ -208,9 +207,32 @@ def _open_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
         )
     if not c.schedule.speed[run].any():
         return _rest_sentence(c, f, run, names)
-    joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
-    verb = "lies in an interval" if len(names) == 1 else "each lie in an interval"
-    return NO_RATE.format(joints=joints, arc=arc(c, run), names=_and(names), verb=verb)
+    joints = list(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
+    whose = "its" if len(joints) == 1 else "their"
+    return NO_RATE.format(
+        joints=", ".join(joints), arc=arc(c, run), whose=whose, names=_intervals(c, f, run, names)
+    )
+
+
+def _intervals(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str:
+    """Which unknowns lie in an interval, and which have one value whatever the friction."""
+    low, high = np.moveaxis(_ends(c, f, run), -1, 0)
+    one = np.isclose(low, high, rtol=1e-12, atol=0.0).all(axis=0)
+    wide, single = (
+        [name for name, x in zip(names, one, strict=True) if x == which] for which in (False, True)
+    )
+    said = [f"{_and(wide)} {'lies' if len(wide) == 1 else 'each lie'} in an interval"] if wide else []
+    if single:
+        said.append(f"{_and(single)} {'does' if len(single) == 1 else 'do'} not depend on it")
+    return "; ".join(said)
+
+
+def _ends(c: Compiled, f: SolvedForces, run: Ints) -> Array:
+    """Low and high end of each unknown (position, unknown, 2)."""
+    every = np.stack(
+        [np.concatenate([e.effort[:, c.known.requested], e.load], axis=1)[run] for e in f.ends], axis=-1
+    )
+    return np.stack([every[:, n, 2 * n : 2 * n + 2] for n in range(every.shape[1])], axis=1)
 
 
 def _rest_sentence(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str:
@@ -232,11 +254,7 @@ def _rest_sentence(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) ->
 def _histories(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str:
     """Range that friction can hold beyond the ends, depending on the earlier motion; empty where it is not larger."""
     assert f.friction is not None
-    ends = np.stack(
-        [np.concatenate([e.effort[:, c.known.requested], e.load], axis=1)[run] for e in f.ends], axis=-1
-    )
-    ends = np.stack([ends[:, n, 2 * n : 2 * n + 2] for n in range(len(names))], axis=1)
-    held = f.friction.holding[run]
+    ends, held = _ends(c, f, run), f.friction.holding[run]
     beyond = holds_beyond(ends, held)
     if not beyond.any():
         return ""

@@ -3,7 +3,7 @@
 At rest no relative rate gives the contacts their senses. One that would move with the effort has the sense of that
 motion, by virtual work: g, the change of the effort with a unit of friction, is minus the rate of the contact per unit
 of the effort's rate. One that would not move only loads the others; it takes the sense that carries the effort
-furthest.
+furthest. An effort that no friction changes has one value, with no friction at its limit.
 
 g   change of the unknown with a unit of each contact (..., E)
 
@@ -33,6 +33,9 @@ from dalembert.core.friction.rod_spin import SpinningRods, solve_spins
 from dalembert.core.layout import Layout
 from dalembert.core.linear import solve_square
 
+ROUNDING = 1e-13
+"""Part of the largest change of any force beside which the change of an effort with friction is rounding."""
+
 ROUNDS = 12
 """Changes of the senses of contacts without impending motion after which the last senses are accepted."""
 
@@ -48,7 +51,7 @@ def extreme(
 ) -> FrictionSolution:
     """Solution with the lowest (end -1) or highest (end 1) value of one of the multipliers, and its senses: 0 where
     friction has no effect. Rods between balls take the spin that equilibrium requires."""
-    g = np.broadcast_to(r.change[..., unknown, :], known.sense.shape)
+    g = np.broadcast_to(_change(layout, contacts, r, unknown), known.sense.shape)
     row = np.zeros(0, np.intp) if rods is None else rods.row
     held = np.zeros(known.sense.shape)
 
@@ -75,6 +78,14 @@ def extreme(
             break
         held = new
     return solution
+
+
+def _change(layout: Layout, contacts: Contacts, r: ContactResponse, unknown: int) -> Array:
+    """Change g of an unknown with a unit of each contact; none where it is rounding beside that of the others."""
+    size = np.abs(r.change) * np.where(contacts.rows.angular, layout.length, 1.0) / layout.row_scale[:, None]
+    least = ROUNDING * size.max(axis=(-2, -1), initial=0.0)[..., None]
+    one = size[..., unknown, :].max(axis=-1, keepdims=True, initial=0.0)
+    return np.where(one > least, r.change[..., unknown, :], 0.0)
 
 
 def _influence(contacts: Contacts, r: ContactResponse, solution: FrictionSolution, g: Array) -> Array:

@@ -139,8 +139,7 @@ def _order(layout: Layout, placed: Laid, stated: Array, wanted: Wanted) -> Ints:
     """Order of preference of modes, some of them only partly placed."""
     wrong = (placed.side * stated[: placed.side.shape[1]] < 0).sum(axis=1)
     off = np.sqrt(np.nansum(wrap_angle(placed.turn - wanted.turn)[:, :-1] ** 2, axis=1))
-    shift = np.sqrt(np.nansum((placed.point - wanted.point)[:, :-1] ** 2, axis=(1, 2))) / layout.length
-    keys = [wrong, off, shift]
+    keys = [wrong, off, shift_from(layout, placed, wanted.point)]
     if wanted.start is not None:
         away = np.nansum(wrap_angle(placed.turn - wanted.start.turn) ** 2, axis=1)
         keys.append(
@@ -154,6 +153,11 @@ def _order(layout: Layout, placed: Laid, stated: Array, wanted: Wanted) -> Ints:
     along, height = measures(layout, to_pose(layout, placed))
     keys[len(keys) if wanted.any_known else 3 : 0] = [-along, -height]
     return np.lexsort([key.round(9) for key in reversed(keys)])
+
+
+def shift_from(layout: Layout, placed: Pose | Laid, point: Array) -> Array:
+    """Distance of poses (M, L+1, ...) from given places (L+1, 2), NaN where unknown, in characteristic lengths."""
+    return np.asarray(np.sqrt(np.nansum((placed.point - point)[:, :-1] ** 2, axis=(1, 2))) / layout.length)
 
 
 def wrap_angle(angle: Array) -> Array:
@@ -191,10 +195,10 @@ def distinct(layout: Layout, pose: Pose) -> Pose:
 
 
 def sort_modes(layout: Layout, pose: Pose, wanted: Wanted) -> Ints:
-    """Order of modes whose groups are unknown: by distance from given angles, else by preference."""
+    """Order of modes whose groups are unknown: by distance from given angles, then places, else by preference."""
     if wanted.any_known:
         off = np.sqrt(np.nansum(wrap_angle(pose.turn - wanted.turn)[:, :-1] ** 2, axis=1))
-        return np.argsort(off.round(9), kind="stable")
+        return np.lexsort((shift_from(layout, pose, wanted.point).round(9), off.round(9)))
     along, height = measures(layout, pose)
     return np.lexsort((-height, -along))
 

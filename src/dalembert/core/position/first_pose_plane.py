@@ -25,6 +25,7 @@ from dalembert.core.position.assembly_modes import (
     distinct,
     enumerate_modes,
     remove_whole_turns,
+    shift_from,
     sort_modes,
     wrap_angle,
 )
@@ -134,33 +135,41 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
         return result
     every = np.abs(_off(result.pose, guess)).max(axis=1)
     if every[0] < EXACT:
-        return _agreeing(result.pose.at(np.flatnonzero(every < EXACT)))
+        return _agreeing(layout, result.pose.at(np.flatnonzero(every < EXACT)), guess)
     alone = every[0] < NEAR and (every[1:] > NEAR).all()
     return result._replace(chosen_by="given") if alone else result
 
 
-def _agreeing(pose: Pose) -> Modes:
-    """Modes (M, L+1, ...) that all have the given angles: the first of them, which these do not decide if M > 1."""
-    return Modes(pose, "open" if len(pose.turn) > 1 else "given")
+def _agreeing(layout: Layout, pose: Pose, guess: Guess) -> Modes:
+    """Modes (M, L+1, ...) that all have the given angles: the one nearest to the given places, which does not decide
+    if another is as near."""
+    away = shift_from(layout, pose, guess.point)
+    order = np.argsort(away.round(9), kind="stable")
+    alone = len(away) == 1 or away[order[0]] + SAME < away[order[1]]
+    return Modes(pose.at(order), "given" if alone else "open")
 
 
 def _also_agreeing(layout: Layout, free: Layout, target: Array, pose: Pose, guess: Guess) -> Modes:
     """A pose (1, L+1, ...) with exactly the given angles, and the other modes that have them too."""
-    if np.isfinite(guess.angles(free, target)).all():
+    if np.isfinite(guess.angles(free, target)).all() and shift_from(layout, pose, guess.point)[0] < SAME:
         return Modes(pose, "given")
     found = _search_modes(layout, free, target, Wanted(guess.turn, guess.point, pose.at(0)), guess)
     if found is None:
         return Modes(pose, "given")
     alike = found.pose.at(np.flatnonzero(np.abs(_off(found.pose, guess)).max(axis=1) < EXACT))
-    return _agreeing(distinct(layout, Pose(*map(np.concatenate, zip(pose, alike, strict=True)))))
+    return _agreeing(
+        layout, distinct(layout, Pose(*map(np.concatenate, zip(pose, alike, strict=True)))), guess
+    )
 
 
 def _nearer(layout: Layout, pose: Pose, found: Modes | None, guess: Guess) -> Modes:
-    """A mode (1, L+1, ...) and those computed beside it, the nearest to the given angles first."""
+    """A mode (1, L+1, ...) and those computed beside it, the nearest to the given angles first, or of those that are as
+    near the nearest to the given places."""
     if found is None:
         return Modes(pose, "nearest")
     ahead, here = (np.linalg.norm(_off(p, guess)[0]) for p in (found.pose, pose))
-    if ahead < here - EXACT:
+    there, away = (shift_from(layout, p, guess.point)[0] for p in (found.pose, pose))
+    if ahead < here - EXACT or (ahead < here + EXACT and there + SAME < away):
         return found
     return Modes(distinct(layout, Pose(*map(np.concatenate, zip(pose, found.pose, strict=True)))), "nearest")
 

@@ -11,7 +11,7 @@ from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
 from dalembert.analysis.methods.elements.screw_torques import ScrewAnswer, screws
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.arrays import first_largest
-from dalembert.printing import Part, TextTable, number, with_unit, wrap
+from dalembert.printing import Part, TextTable, number, range_text, with_unit, wrap
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -58,8 +58,7 @@ def _screw_parts(result: Result, to: Printed) -> Iterator[Part]:
         s = result.screw(name)
         if np.isfinite(s.torque).any():
             k = first_largest(np.maximum(-s.torque_low, s.torque_high))
-            ends = [to.number("moment", float(x[k])) for x in (s.torque_low, s.torque_high)]
-            torque = ends[0] if ends[0] == ends[1] else f"{ends[0]} to {ends[1]}"
+            torque = range_text(to.number("moment", float(x[k])) for x in (s.torque_low, s.torque_high))
             rows.append(
                 [
                     name,
