@@ -242,6 +242,7 @@ def verdict(quantity: str, of: str, value: Any, **more: Any) -> Any:
     [
         ("155 @ 220 deg", True),  # 154.805 lbf at 220.322 deg
         ("154.8 lbf @ -139.68 deg", True),
+        ("-155 @ 40 deg", False),  # the same arrow, but no magnitude is negative
         ("155 @ 220.0 deg", False),  # four digits that are not those of the direction
         ("155 @ 221 deg", False),
         ("160 @ 220 deg", False),

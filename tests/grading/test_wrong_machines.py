@@ -67,6 +67,37 @@ def test_the_formulas_of_the_piston_hold_all_round_the_crank(turn: float, angle:
     }
 
 
+def test_the_formulas_hold_at_each_of_several_positions() -> None:
+    """Every position has its own angle: the efforts of all in one answer are those of each alone."""
+    turns = [0.5, 1.7, 4.0]
+    m = slider_crank(0.5, 0.0).with_values({"drives.O.position": turns})
+    for _, sentence, solution in WrongProblems(da.dynamics(m)):
+        if "r w^2" in sentence:
+            alone = [efforts(da.dynamics(slider_crank(turn, 0.0)), "r w^2")[sentence][0] for turn in turns]
+            assert solution().effort("O") == pytest.approx(alone)
+    sliding = da.dynamics(lever(0.4).with_values({"drives.O.position": turns[:2]}))
+    (left,) = (solution() for _, sentence, solution in WrongProblems(sliding) if sentence == CORIOLIS)
+    alone = [efforts(da.dynamics(lever(turn)), "Coriolis")[CORIOLIS][0] for turn in turns[:2]]
+    assert left.effort("O") == pytest.approx(alone)
+
+
+ROUGH = {"type": "slider", "links": ["ground", "piston"], "at": ["O", "B"], "friction": {"coefficient": 0.1}}
+
+
+def test_of_a_single_rough_joint_friction_is_said_once() -> None:
+    """Left out or in the wrong sense everywhere is the same as in that joint, which is not named beside it."""
+    tree = slider_crank(1.0, 0.0).to_tree()
+    tree["joints"]["guide"] = ROUGH
+    said = efforts(da.dynamics(da.mechanism(tree)), "friction")
+    everywhere = {"friction is left out", "all friction acts in the wrong sense, with the motion"}
+    assert said.keys() == everywhere
+    tree["joints"]["B"]["friction"] = {"coefficient": 0.2, "radius": 0.01}
+    both = efforts(da.dynamics(da.mechanism(tree)), "friction")
+    alone = {f"the friction of joint {j} {what}" for j in ("B", "guide") for what in (
+        "is left out", "acts in the wrong sense, with the motion")}  # fmt: skip
+    assert everywhere | alone <= both.keys()
+
+
 def test_only_a_slider_behind_a_turning_crank_has_formulas() -> None:
     """None of one that stands still, of one that its own guide drives, of a block on a lever, of what has no mass."""
     still = {"drives": {"O": {"position": "1 rad", "acceleration": "5 rad/s^2"}}}

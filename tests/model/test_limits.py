@@ -23,7 +23,9 @@ from dalembert.model import (
     SpaceJoint,
     Table,
 )
+from dalembert.model.joints.elements.brake_keys import Button, Clamp
 from dalembert.model.joints.elements.cam_profiles import CamProfile
+from dalembert.model.joints.elements.pin_keys import PinSize
 from dalembert.model.part import ReadingRules
 from dalembert.units import file_units
 
@@ -101,6 +103,16 @@ def law(time: list[float], position: list[float], periodic: bool = False) -> Dri
     return Drive.model_validate({"law": keys})
 
 
+def stack(links: Any, layers: Any, thick: Any = None) -> PinSize:
+    keys = {"diameter": 0.02, "stack": links, "layers": layers, "thicknesses": thick}
+    return PinSize.model_validate({key: value for key, value in keys.items() if value is not None})
+
+
+def clamp(keys: Any) -> Clamp:
+    return Clamp.model_validate(keys)
+
+
+UNCLEAR = "what presses is not clear; write cylinder: .bore: 40 mm"
 OVER = 1 + 1e-6
 EFFICIENCY = "an efficiency is greater than 1"
 BACK = "restitution is .*write a number from 0 .no rebound. to 1"
@@ -179,6 +191,33 @@ LIMITS: dict[str, tuple[Callable[..., Any], tuple[Any, ...], tuple[Any, ...], st
     "half angle of a tangent cam": (tangent, (1.2,), (math.pi / 2,), "the half angle is not below 90 deg"),
     "nose of a tangent cam": (
         tangent, (math.acos(0.7), 0.0128571), (math.acos(0.7), 0.0128572), "the nose would have a radius of -"),
+    "parts of a stack": (
+        stack, (["a", "b"], [0.0, 0.02]), (["a"], [0.0]), "1 links and 1 layers do not go together; give each"),
+    "layers of a stack": (
+        stack, (["a", "b", "a"], [0.0, 0.02, 0.04]), (["a", "b", "a"], [0.0, 0.02]), "3 links and 2 layers do not"),
+    "layers in their order": (
+        stack, (["a", "b"], [0.02, 0.0201]), (["a", "b"], [0.02, 0.02]), "the layers do not increase; write them from"),
+    "room of a stack": (
+        stack, (["a", "b", "a"], [0.0, 0.03, 0.06], [0.02, 0.04, 0.02]),
+        (["a", "b", "a"], [0.0, 0.03, 0.06], [0.02, 0.04, 0.020001]),
+        "links 2 and 3 of the stack overlap; give layers at least half of both thicknesses apart"),
+    "room of the first": (
+        stack, (["a", "b"], [0.0, 0.03], [0.02, 0.04]), (["a", "b"], [0.0, 0.03], [0.02, 0.040001]),
+        "links 1 and 2 of the stack overlap"),
+    "thicknesses of a stack": (
+        stack, (["a", "b"], [0.0, 0.03], [0.02, 0.04]), (["a", "b"], [0.0, 0.03], [0.02]),
+        "2 layers and 1 thicknesses do not go together; give each link of the stack one"),
+    "a stack without places": (
+        stack, (["a", "b"], [0.0, 0.03]), (["a", "b"], None), "a stack needs the places of its links; write stack:"),
+    "thicknesses without a stack": (
+        stack, (None, None), (None, None, [0.02]), "thicknesses are those of a stack; write eye and cheeks, or"),
+    "a button": (
+        lambda x: Button(radius=x, at=0.05), (0.0499,), (0.05,), "the pad reaches over the axis; make at larger"),
+    "a clamp of one kind": (
+        clamp, ({"bore": 0.04},), ({"bore": 0.04, "stiffness": 1e4, "compression": 0.01},), UNCLEAR),
+    "a clamp by a spring": (clamp, ({"stiffness": 1e4, "compression": 0.0},), ({"stiffness": 1e4},), UNCLEAR),
+    "a clamp at all": (clamp, ({"bore": 0.04, "pressure": 0.0},), ({},), UNCLEAR),
+    "half a spring beside a cylinder": (clamp, ({"bore": 0.04},), ({"bore": 0.04, "compression": 0.01},), UNCLEAR),
     "guide": (guide, (-0.02, 0.0201), (-0.02, 0.02), "a guide is two lengths"),
     "lengths of a guide": (guide, (0.02, 0.03), (0.02, 0.03, 0.04), "a guide is two lengths"),
     "points of a table": (table, ([0, 1], [3, 4]), ([0], [3]), "a table has too few points: 1; give at least 2"),
@@ -235,3 +274,16 @@ def test_damping_of_a_single_freedom_is_a_number_of_several_named(kind: str, wri
         with pytest.raises(da.ModelError) as refused:
             SpaceJoint.model_validate(tree, context=SPACE)
         assert read in str(refused.value)
+
+
+def test_without_mass_a_link_has_its_centre_where_its_volume_has_it() -> None:
+    """Two boxes of unequal volume: 1 at 0 and 3 at 4 along x have their centre at 3."""
+    sides = {0.0: [1.0, 1.0, 1.0], 4.0: [1.0, 3.0, 1.0]}
+    shapes = [{"type": "box", "size": size, "center": [x, 0, 0]} for x, size in sides.items()]
+    tree = {"space": "space", "links": {"ground": {}, "body": {"points": {}, "mass": 0, "shape": shapes}}}
+    m = da.mechanism(tree)
+    assert (m.mass("body"), tuple(m.center("body"))) == (0.0, (3.0, 0.0, 0.0))
+    assert not any(x for row in m.inertia("body") for x in row)
+    heavy = da.mechanism(tree | {"links": {"ground": {}, "body": tree["links"]["body"] | {"mass": 8.0}}})
+    assert (heavy.mass("body"), tuple(heavy.center("body"))) == (8.0, (3.0, 0.0, 0.0))
+    assert heavy.inertia("body")[1][1] == pytest.approx(2 * (1 + 1) / 12 + 6 * 2 / 12 + 2 * 3**2 + 6 * 1**2)

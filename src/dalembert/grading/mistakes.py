@@ -129,7 +129,7 @@ class SolvedProblem:
         """The wrong problems at the positions that a sheet asks for."""
         r, which = self.result, tuple(sorted({f.position for f in some}))
         s = r.schedule
-        standing = bool((s.speed[list(which)] == 0).all(axis=-1).any()) if s.names else True
+        standing = bool((s.speed[list(which)] == 0).all(axis=-1).any())
         every = len(which) == len(r.status) or any(f.answer.extreme for f in some) or s.unknown is not None
         key = () if every or (standing and r.status[0] != "at_rest") or not which else which
         if key not in self._wrong:

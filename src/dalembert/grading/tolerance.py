@@ -184,7 +184,7 @@ def _in_si(text: str, value: float) -> float:
     match = re.search(NUMBER, text)
     if match is None or not float(match[0]):
         return 0.0
-    return half_unit(match[0]) * abs(value / float(match[0]))
+    return half_unit(match[0]) * value / float(match[0])
 
 
 def _angle_half(text: str, unit_text: str, units: Units) -> float:

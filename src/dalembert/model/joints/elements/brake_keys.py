@@ -149,8 +149,8 @@ class Clamp(Part):
 
     @model_validator(mode="after")
     def _one_kind(self) -> Self:
-        spring = self.stiffness is not None and self.compression is not None
-        half = (self.stiffness is None) != (self.compression is None)
+        spring = self.stiffness is not None
+        half = spring != (self.compression is not None)
         if half or spring == (self.bore is not None):
             remedy = "write cylinder: {bore: 40 mm, pressure: 20 bar} or spring: {stiffness:, compression:}"
             raise ModelError("what presses is not clear", remedy)

@@ -1,0 +1,70 @@
+"""Equality of answers item by item, and the curves that charts of an answer have."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.answer import workbook
+from dalembert.answer.column import WORD
+from dalembert.answer.equality import equal
+
+NAN = float("nan")
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "same"),
+    [
+        (1.0, 1.0, True),
+        (1.0, 2.0, False),
+        (NAN, float("nan"), True),  # two objects
+        (NAN, 1.0, False),
+        (1.0, NAN, False),
+        (1, 1.0, False),  # a count is no length
+        ([1.0, NAN], [1.0, float("nan")], True),
+        ([1.0, 2.0], [1.0, 3.0], False),
+        ([1.0], [1.0, 2.0], False),
+        ((1.0,), [1.0], False),
+        ({"a": 1.0}, {"a": 1.0}, True),
+        ({"a": 1.0}, {"a": 2.0}, False),
+        ({"a": 1.0}, {"b": 1.0}, False),
+        ({"a": 1.0}, {"a": 1.0, "b": 2.0}, False),
+        ("ab", "ab", True),
+        ("ab", "ac", False),
+        (np.array([1.0, NAN]), np.array([1.0, NAN]), True),
+        (np.array([1.0, NAN]), np.array([NAN, 1.0]), False),
+        (np.array([1.0]), np.array([[1.0]]), False),
+        (np.array([1, 2]), np.array([1.0, 2.0]), False),
+        (np.array(["a", None], object), np.array(["a", None], object), True),
+        (np.array(["a", None], object), np.array(["a", "b"], object), False),
+        (np.array([["a"], ["b"]], object), np.array(["a", "b"], object), False),
+        (np.array([1j, NAN]), np.array([1j, NAN]), True),
+    ],
+)
+def test_values_are_equal_item_by_item_nan_as_nan(one: Any, other: Any, same: bool) -> None:
+    assert equal(one, other) is same
+    assert equal(other, one) is same
+
+
+@pytest.mark.parametrize("analysis", [da.kinematics, da.statics])
+def test_a_chart_has_every_column_with_a_value_but_the_drive_itself(analysis: Any) -> None:
+    """Over the drive; without forces there are none of efforts and reactions."""
+    r = analysis(da.four_bar(positions=5))
+    charts = workbook.column_diagrams(r, r.scale("SI"), "ground")
+    known = {
+        c.name: c.kind
+        for c in r.columns()
+        if c.kind != WORD and np.isfinite(np.asarray(c.values[:], float)).any()
+    }
+    drawn = {curve.name for chart in charts for curve in chart.curves}
+    assert {chart.x.head for chart in charts} == {"drive.O2 [deg]"}
+    assert "drive.O2" in known
+    assert "drive.O2" not in drawn
+    assert drawn <= known.keys()
+    assert any(name.startswith("reaction") for name in drawn) is (analysis is da.statics)
+    for kind in {known[name] for name in drawn}:
+        mine = [name for name, k in known.items() if k == kind and name != "drive.O2"]
+        assert len(drawn & set(mine)) == min(len(mine), workbook.MOST_CURVES)
