@@ -97,7 +97,7 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
         wide, texts = _width(b.scene) <= BESIDE, [_block(t, pictures) for t in b.texts]
         return {"kind": "beside", "file": picture[0], "beside": wide, "blocks": texts}
     assert isinstance(b, Drawings)
-    caption = " ".join([*filter(None, [b.caption]), *map(_printed_smaller, b.scenes)]).strip()
+    caption = " ".join(filter(None, [b.caption, *map(_printed_smaller, b.scenes)]))
     return {"kind": "figure", "caption": caption, "files": _pictures(b.scenes, pictures, b.columns)}
 
 
