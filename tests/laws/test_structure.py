@@ -8,10 +8,12 @@ from benchmarks.linkages import chain
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, maximum_bipartite_matching
 
+import dalembert as da
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.core import bands
 from dalembert.core.constraints import dense, stack_rows
-from dalembert.core.factor import damped_step, factor
+from dalembert.core.factor import damped_step, displacement, displacements, factor
 from dalembert.core.position.assur_groups import match_columns, strong_components
 from dalembert.kernel.elimination import components, maximum_matching
 
@@ -85,3 +87,50 @@ def test_long_chains_are_solved_in_bands_and_in_sparse_columns_as_dense_matrices
     assert singular.rcond[0] == 0
     assert np.isnan(singular.motion(rates[:1])).all()
     bands._bands.cache_clear()
+
+
+@pytest.mark.parametrize("widest", [bands.WIDEST, 0])
+def test_an_entry_that_is_zero_at_one_position_counts_at_the_others(
+    widest: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of two positions of a chain of 48 links, each in its own pattern; Newton's steps too, at both and at one."""
+    monkeypatch.setattr(bands, "WIDEST", widest)
+    bands._bands.cache_clear()
+    c = compile_mechanism(m := chain(24, positions=3), m.schedule())
+    layout, first = c.layout, c.first_modes
+    assert first is not None
+    rows = stack_rows(layout, first.pose.at(np.array([0, 0])))
+    for row in (4, 9, 20):
+        rows.on_j[0, row, 2] = 0.0
+    j, scale = dense(layout, rows), layout.row_scale
+    assert ((j[0] == 0) & (j[1] != 0)).any()
+    rates = np.random.default_rng(4).normal(size=(2, layout.unknowns))
+    expected = np.stack([np.linalg.solve(a, b) for a, b in zip(j, rates, strict=True)])
+    size = np.abs(expected).max()
+    for found in (factor(layout, rows).motion(rates), displacement(layout, rows, rates * scale)):
+        np.testing.assert_allclose(found, expected, atol=1e-9 * size)
+    several, matrix = displacements(layout, rows.at(slice(0, 1)), rates * scale)
+    np.testing.assert_allclose(several, np.linalg.solve(j[0], rates.T).T, atol=1e-9 * size)
+    assert matrix is None
+    bands._bands.cache_clear()
+
+
+def test_steps_of_more_constraints_than_unknowns_are_the_shortest_of_least_squares() -> None:
+    """A lifted four-bar has 21 rows for 18 unknowns; rows and unknowns are measured by their scales. Of a plane one,
+    which is square, J is solved, and told with its rows scaled; where it is singular a step is 0."""
+    for m in (da.lifted(da.four_bar(positions=1)), da.four_bar(positions=1)):
+        r = da.kinematics(m)
+        layout, pose = r.compiled.layout, full_pose(r, slice(0, 1))
+        rows = stack_rows(layout, pose)
+        j, scale, column = dense(layout, rows)[0], layout.row_scale, layout.column_scale
+        gaps = np.random.default_rng(4).normal(size=(2, len(scale)))
+        scaled = j * scale[:, None] * column
+        expected = (np.linalg.pinv(scaled, rcond=1e-9) @ gaps.T).T * column
+        np.testing.assert_allclose(displacement(layout, rows, gaps[:1])[0], expected[0], atol=1e-11)
+        several, matrix = displacements(layout, rows, gaps)
+        np.testing.assert_allclose(several, expected, atol=1e-11)
+        assert matrix is not None
+        np.testing.assert_allclose(matrix, j * scale[:, None], atol=1e-15)
+        rows.on_i[:], rows.on_j[:] = 0.0, 0.0
+        assert not displacement(layout, rows, gaps[:1]).any()
+        assert not displacements(layout, rows, gaps)[0].any()
