@@ -21,6 +21,7 @@ import dalembert as da
 from dalembert.exams.question_sheet import ExamText, question_sheet
 from dalembert.machine.members.member_table import member_table
 from dalembert.model.library import TEMPLATES
+from tests.answers.every_answer import made
 from tests.approved.commands import COMMANDS
 from tests.approved.design_parts import DESIGNED
 from tests.approved.foreign_files import FOREIGN
@@ -127,6 +128,7 @@ TEXT: dict[str, Callable[[], str]] = {
     "balance": answered(lambda r: da.balance(r, ["crank", "rocker"]), positions=24),
     "flywheel": answered(lambda r: da.flywheel(r, Cs=0.02), "fw-04-flywheel-of-a-double-acting-engine"),
     "members": answered(member_table, positions=12),
+    "rotor": lambda: str(da.report(made("RotorBalance"))),
     "study": studied,
     "workbook": in_cells,
     **READ,

@@ -82,12 +82,21 @@ class _Joint:
     def _text(self, kind: str, value: float) -> str:
         return figure(self.c.shown, kind, value)
 
-    def _bearing(self, contact: ContactForce, n: int, of: int, axes: str) -> Working:
-        """N of one contact: of both ends of a bearing that has them, else of the components that make it."""
-        name = f"S_{{{self.joint}{f',{n + 1}' if of > 1 else ''}}}"
-        if of > 1:
-            end = ("behind", "ahead")[n]
-            return Working(name, "", f'{self._text("force", contact.bearing)} "at the end {end}"')
+    def _bearings(self, contacts: list[ContactForce], axes: str) -> list[Working]:
+        """N of one contact of the components that make it; of both ends of a bearing that has them."""
+        if len(contacts) > 1:
+            return [
+                Working(
+                    f"S_{{{self.joint},{n}}}",
+                    "",
+                    f'{self._text("force", contact.bearing)} "at the end {end}"',
+                )
+                for n, (contact, end) in enumerate(zip(contacts, ("behind", "ahead"), strict=True), 1)
+            ]
+        return [self._bearing(contact, axes) for contact in contacts]
+
+    def _bearing(self, contact: ContactForce, axes: str) -> Working:
+        name = f"S_{{{self.joint}}}"
         inside = " + ".join(f"{along(self.sign, a + chr(39))}^{{2}}" for a in axes)
         return Working(name, f"({inside})^{{1/2}}", self._text("force", contact.bearing))
 
@@ -119,7 +128,7 @@ class _Joint:
         pins = self._of_kind("pin")
         collars = self._of_kind("collar")
         out = [self._radius(pins[0])] if pins else []  # none of a collar alone
-        out += [self._bearing(contact, n, len(pins), "xy") for n, contact in enumerate(pins)]
+        out += self._bearings(pins, "xy")
         parts = [
             self._product(f"r_{{{self.joint}}}", self._number("length", pin.strength), pin, n, len(pins))
             for n, pin in enumerate(pins)
@@ -134,15 +143,15 @@ class _Joint:
 
     def _prismatic(self) -> list[Working]:
         of, mu = len(self.contacts), f"mu_{{{self.joint}}}"
-        out = [self._bearing(contact, n, of, "yz") for n, contact in enumerate(self.contacts)]
+        out = self._bearings(list(self.contacts), "yz")
         parts = [self._product(mu, self._mu(end), end, n, of) for n, end in enumerate(self.contacts)]
         return [*out, self._sum(along(self.force_sign, "x'"), "force", parts, self._amounts())]
 
     def _cylindrical(self) -> list[Working]:
         guides = self._of_kind("guide")
         pins = self._of_kind("pin")
-        of, contact, name = len(guides), guides[0], self.joint
-        out = [self._bearing(contact, n, of, "yz") for n, contact in enumerate(guides)]
+        contact, name = guides[0], self.joint
+        out = self._bearings(guides, "yz")
         parts = [("p_{x'}", contact.part), *([("p_{t}", pins[0].part)] if pins else [])]
         out.append(Working(", quad ".join(f"{sign} = {self._figure(part)}" for sign, part in parts)))
         factor, figured = f"mu_{{{name}}}", self._mu(contact)
@@ -179,7 +188,7 @@ class _Joint:
         size = self._text("moment", float(np.linalg.norm(couple)))
         return [
             self._radius(contact),
-            self._bearing(contact, 0, 1, "xyz"),
+            self._bearing(contact, "xyz"),
             Working(
                 f"|{self.couple_sign}| = r_{{{self.joint}}} S_{{{self.joint}}}",
                 self._couple(
@@ -212,7 +221,7 @@ class _Joint:
                 f"frac({self._number('force', axial)}; cos {degrees} deg cos {self.c.notation.degrees(flank)} deg)",
                 self._text("force", thread.bearing),
             ),
-            self._bearing(pin, 0, 1, "yz"),
+            self._bearing(pin, "yz"),
             Working(
                 f"|{self.force_sign}| = mu_{{{joint}}} (S_{{{joint},t}} + S_{{{joint}}})",
                 f"{mu} cdot {both}",
