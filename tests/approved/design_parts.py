@@ -106,7 +106,7 @@ DESIGNED: dict[str, Callable[[], str]] = {
     "start-up": lambda: sections(start_up_part, *motors()),
     "balance": lambda: sections(balance_part, crank()),
     "boom": lambda: whole(da.statics(da.loads(STRONG_BOOM))),
-    "rssr": lambda: whole(bundled("rssr", 4)),
+    "rssr": lambda: whole(bundled("rssr", 5)),
     "does-not-close": lambda: whole(bundled("four_bar", 6, links__crank__points__A=["0.5 m", 0])),
     "motor": lambda: sections(
         motor_part,
