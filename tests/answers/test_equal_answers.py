@@ -1,7 +1,8 @@
-"""Equality of answers item by item, and the curves that charts of an answer have."""
+"""Equality of answers item by item, the curves that charts of an answer have, and files that are kept."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import dalembert as da
 from dalembert.answer import workbook
 from dalembert.answer.column import WORD
 from dalembert.answer.equality import equal
+from tests.answers.every_answer import made
 
 NAN = float("nan")
 
@@ -68,3 +70,17 @@ def test_a_chart_has_every_column_with_a_value_but_the_drive_itself(analysis: An
     for kind in {known[name] for name in drawn}:
         mine = [name for name, k in known.items() if k == kind and name != "drive.O2"]
         assert len(drawn & set(mine)) == min(len(mine), workbook.MOST_CURVES)
+
+
+@pytest.mark.parametrize("way", ["to_csv", "to_json", "to_xlsx", "to_netcdf", "save"])
+def test_a_file_that_exists_is_kept_unless_it_may_be_overwritten(way: str, tmp_path: Path) -> None:
+    path = tmp_path / ("a.csv" if way == "save" else f"a.{way[3:]}")
+    path.write_text("mine")
+    write = getattr(made("Flywheel"), way)
+    with pytest.raises(da.ModelError) as refused:
+        write(path)
+    assert str(refused.value).startswith(f"{path} exists; name another file, or overwrite it: --force")
+    assert (path.read_text(), [p.name for p in tmp_path.iterdir()]) == ("mine", [path.name])
+    write(path, overwrite=True)
+    assert path.read_bytes() != b"mine"
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]

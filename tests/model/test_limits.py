@@ -23,6 +23,7 @@ from dalembert.model import (
     SpaceJoint,
     Table,
 )
+from dalembert.model.files.yaml_text import DEEPEST
 from dalembert.model.joints.elements.brake_keys import Button, Clamp
 from dalembert.model.joints.elements.cam_profiles import CamProfile
 from dalembert.model.joints.elements.pin_keys import PinSize
@@ -229,6 +230,11 @@ LIMITS: dict[str, tuple[Callable[..., Any], tuple[Any, ...], tuple[Any, ...], st
     "a period above 0": (table, ([0, 2], [3, 3], 2.0), ([0, 2], [3, 3], 0.0), "a periodic table goes over"),
     "ends of a period": (
         table, ([0, 1, 2], [-3, 5, -3], 2.0), ([0, 1, 2], [-3, 5, 3], 2.0), "ends with another value than it begins"),
+    "ends of a period below 0": (
+        table, ([0, 1, 2], [-3, -5, -3], 2.0), ([0, 1, 2], [-3, -5, -4], 2.0), "ends with another value than it"),
+    "a small cam that is closed": (
+        points, ([1, 2, 3, TURN + 1], [0.01, 0.02, 0.02, 0.01]),
+        ([1, 2, 3, TURN + 1], [0.01, 0.02, 0.02, 0.01 + 5e-8]), "the cam does not close"),
     "points of a law": (
         law, ([0, 1, 2, 3], [0, 1, 2, 1]), ([0, 1, 2], [0, 1, 2]), "it has too few points: 3; give at least 4"),
     "columns of a law": (
@@ -287,3 +293,15 @@ def test_without_mass_a_link_has_its_centre_where_its_volume_has_it() -> None:
     heavy = da.mechanism(tree | {"links": {"ground": {}, "body": tree["links"]["body"] | {"mass": 8.0}}})
     assert (heavy.mass("body"), tuple(heavy.center("body"))) == (8.0, (3.0, 0.0, 0.0))
     assert heavy.inertia("body")[1][1] == pytest.approx(2 * (1 + 1) / 12 + 6 * 2 / 12 + 2 * 3**2 + 6 * 1**2)
+
+
+@pytest.mark.parametrize(
+    "deep", ["x = " + "[" * 1001, "x." * 1001 + "y = 1", "x = " + "{ a = " * 1001, "x = " + "{ a = " * 900]
+)
+def test_toml_that_is_nested_too_deep_is_refused_at_its_line(deep: str) -> None:
+    with pytest.raises(da.ModelError) as refused:
+        da.loads(f"# a bar\n{deep}\n", "toml")
+    assert (
+        str(refused.value)
+        == f"text:2: the file is nested deeper than {DEEPEST} levels; a model file needs 6 or so"
+    )
