@@ -68,7 +68,8 @@ def difference(r: Any, s: Any) -> float:
     assert (r.status, r.mode, r.mobility) == (s.status, s.mode, s.mobility)
     assert [_without_rounding(x) for x in r.reasons] == [_without_rounding(x) for x in s.reasons]
     length = s.compiled.layout.length
-    force = np.nanmax(np.abs(s.force_array), initial=0.0)
+    ends = [end for pair in s.ends for end in pair]
+    force = max(np.nanmax(np.abs(one.force_array), initial=0.0) for one in (s, *ends))
     least = {
         "force_array": force,
         "effort_array": force * min(length, 1.0),
@@ -94,11 +95,14 @@ def difference(r: Any, s: Any) -> float:
     if r.friction is None:
         return worst
     # of friction that bears nothing there is nothing but rounding to compare
+    power = force * max(float(np.nanmax(twist, initial=0.0)), turning * length)
     least = {
         "force": force,
         "viscous_force": force,
         "moment": force * length,
         "viscous_moment": force * length,
+        "dry_loss": power,
+        "viscous_loss": power,
     }
     return max(worst, _friction_difference(r.friction, s.friction, least))
 

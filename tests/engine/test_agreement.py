@@ -64,6 +64,9 @@ def test_random_mechanisms_with_friction(seed: int) -> None:
     effort depends on the friction of what is at rest."""
     m = da.mechanism(rough_tree(seed))
     assert both(m)[0] < TOLERANCE
+    usual, careful = da.dynamics(m), da.dynamics(m, method="careful")
+    for pair, same in zip(usual.ends, careful.ends, strict=True):
+        assert all(difference(mine, other) < TOLERANCE for mine, other in zip(pair, same, strict=True))
     assert both(m, static=True)[0] < TOLERANCE
     assert both(moved(m, seed))[0] < TOLERANCE
 

@@ -10,6 +10,7 @@ import pytest
 import dalembert as da
 from dalembert.core.friction import holding_range
 from dalembert.core.friction.linear_programmes import furthest
+from dalembert.pages.page_data import page_data
 from tests.friction.engines import engine, pushed_slider
 from tests.friction.oracle import resting
 from tests.friction.rough import still_tree
@@ -252,3 +253,10 @@ def test_an_effort_that_no_friction_changes_is_one_value() -> None:
         for joint in "OABC":
             assert end.reaction(joint)[0] == pytest.approx(smooth.reaction(joint)[0], rel=1e-9)
         assert not np.nan_to_num(end.friction.moment).any()
+
+
+def test_a_page_says_so_too() -> None:
+    """The template of the page is filled there; it is told which unknowns have one value."""
+    rough = da.loads(TRUSS_ON_AN_ARM.replace("RUB", "friction: {coefficient: 0.2, radius: 10 mm}"))
+    known = {u["name"]: u for u in page_data(rough)["sentences"]["unknowns"]}
+    assert known["O"]["single"]

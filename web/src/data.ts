@@ -81,7 +81,7 @@ export interface SketchData {
 export interface Sentences {
   templates: Record<string, string>; words: { [name: string]: any; kinds: Record<"length" | "angle", { what: string; how: string }> };
   limits: { shut: number; alike: number }; units: Record<string, { unit: string; size: number }>; joints: string[];
-  overflow: Record<string, [string, ...number[]][]>; unknowns: { name: string; kind: string; row: number }[];
+  overflow: Record<string, [string, ...number[]][]>; unknowns: { name: string; kind: string; row: number; single?: boolean }[];
   contacts: { joint: string; row: number }[]; gears: { sentence: string; rows: number[]; error: number }[];
 }
 

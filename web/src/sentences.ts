@@ -65,8 +65,18 @@ export class Reasons {
     const joints = [...new Set(moved.map((c) => c.joint))];
     const values = s.unknowns.map((u) =>
       fill(s.words.sides, { name: u.name, before: this.quantity(kernel.here[u.row], u.kind), after: this.quantity(kernel.hereAfter[u.row], u.kind) }));
-    const verb = status === "reversal" ? (joints.length === 1 ? "reverses" : "reverse") : names.length === 1 ? "lies in an interval" : "each lie in an interval";
-    return { ...one, joints: status === "reversal" ? listed(joints) : joints.join(", "), verb, values: listed(values), name: names[0] ?? "", names: listed(names) };
+    const verb = joints.length === 1 ? "reverses" : "reverse", whose = joints.length === 1 ? "its" : "their";
+    return { ...one, joints: status === "reversal" ? listed(joints) : joints.join(", "), verb, whose, values: listed(values), name: names[0] ?? "", intervals: this.intervals() };
+  }
+
+  /** Which unknowns lie in an interval at rest, and which have one value whatever the friction. */
+  private intervals(): string {
+    const of = (single: boolean): string[] => this.s.unknowns.filter((u) => !!u.single === single).map((u) => u.name);
+    const wide = of(false), single = of(true);
+    return [
+      ...(wide.length ? [`${listed(wide)} ${wide.length === 1 ? "lies" : "each lie"} in an interval`] : []),
+      ...(single.length ? [`${listed(single)} ${single.length === 1 ? "does" : "do"} not depend on it`] : []),
+    ].join("; ");
   }
 
   /** The unknowns with and without friction at their largest difference; nothing if coefficients depend on other

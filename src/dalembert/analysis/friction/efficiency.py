@@ -156,16 +156,16 @@ def _cycle(r: Result) -> tuple[float, float, float, dict[str, float]]:
     drives = _work(r, lambda side: (side.effort_array * side.schedule.speed).sum(axis=-1), weight)
     loads = [_work(r, partial(_load_power, k), weight) for k in range(len(r.unknown_loads))]
     total, net = sum(lost.values()), drives + sum(loads)
-    put_in = given(net, total)
+    put_in = supplied(net, total)
     if not put_in > 0:
         return float("nan"), put_in, total, dict.fromkeys(lost, float("nan"))
     return (put_in - total) / put_in, put_in, total, {joint: w / put_in for joint, w in lost.items()}
 
 
-def given(net: float, lost: float) -> float:
+def supplied(net: float, lost: float) -> float:
     """Work or power put in, where the drives give ``net`` of what is lost and the loads the rest: both may put in.
 
-    >>> given(5.0, 2.0), given(-5.0, 2.0), given(1.5, 2.0)
+    >>> supplied(5.0, 2.0), supplied(-5.0, 2.0), supplied(1.5, 2.0)
     (5.0, 7.0, 2.0)
     """
     return max(net, 0.0) + max(lost - net, 0.0)

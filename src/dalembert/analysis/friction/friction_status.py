@@ -133,9 +133,7 @@ RANGES: dict[tuple[bool, ...], str] = {
     (False, True): " up to the high end",
     (False, False): "",
 }
-NO_RATE = (
-    "No relative motion in {joints}{arc}: {whose} friction may have any value within the limits, and {names}."
-)
+NO_RATE = "No relative motion in {joints}{arc}: {whose} friction may have any value within the limits, and {intervals}."
 
 
 def _jam_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
@@ -210,21 +208,26 @@ def _open_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     joints = list(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
     whose = "its" if len(joints) == 1 else "their"
     return NO_RATE.format(
-        joints=", ".join(joints), arc=arc(c, run), whose=whose, names=_intervals(c, f, run, names)
+        joints=", ".join(joints), arc=arc(c, run), whose=whose, intervals=_intervals(c, f, run, names)
     )
 
 
 def _intervals(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str:
-    """Which unknowns lie in an interval, and which have one value whatever the friction."""
+    """Sentence: which unknowns lie in an interval, and which have one value whatever the friction."""
     low, high = np.moveaxis(_ends(c, f, run), -1, 0)
-    one = np.isclose(low, high, rtol=1e-12, atol=0.0).all(axis=0)
+    one: Flags = np.all(one_value(low, high), axis=0)
     wide, single = (
         [name for name, x in zip(names, one, strict=True) if x == which] for which in (False, True)
     )
-    said = [f"{_and(wide)} {'lies' if len(wide) == 1 else 'each lie'} in an interval"] if wide else []
+    parts = [f"{_and(wide)} {'lies' if len(wide) == 1 else 'each lie'} in an interval"] if wide else []
     if single:
-        said.append(f"{_and(single)} {'does' if len(single) == 1 else 'do'} not depend on it")
-    return "; ".join(said)
+        parts.append(f"{_and(single)} {'does' if len(single) == 1 else 'do'} not depend on it")
+    return "; ".join(parts)
+
+
+def one_value(low: Array, high: Array) -> Flags:
+    """Where both ends of what friction leaves open are one value."""
+    return np.asarray(np.isclose(low, high, rtol=1e-12, atol=0.0))
 
 
 def _ends(c: Compiled, f: SolvedForces, run: Ints) -> Array:
@@ -286,7 +289,7 @@ def _and(names: list[str]) -> str:
 
 
 def _there(c: Compiled, ends: tuple[SolvedForces, ...], run: Ints) -> list[bool]:
-    """Whether the ends of an unknown's interval have a value at some of these positions."""
+    """True where the ends of an unknown's interval have a value at some of these positions."""
     values = [np.concatenate([e.effort[:, c.known.requested], e.load], axis=1)[run] for e in ends]
     return [bool(np.isfinite(v).all(axis=1).any()) for v in values]
 

@@ -168,8 +168,8 @@ def _nearer(layout: Layout, pose: Pose, found: Modes | None, guess: Guess) -> Mo
     if found is None:
         return Modes(pose, "nearest")
     ahead, here = (np.linalg.norm(_off(p, guess)[0]) for p in (found.pose, pose))
-    there, away = (shift_from(layout, p, guess.point)[0] for p in (found.pose, pose))
-    if ahead < here - EXACT or (ahead < here + EXACT and there + SAME < away):
+    beyond, away = (shift_from(layout, p, guess.point)[0] for p in (found.pose, pose))
+    if ahead < here - EXACT or (ahead < here + EXACT and beyond + SAME < away):
         return found
     return Modes(distinct(layout, Pose(*map(np.concatenate, zip(pose, found.pose, strict=True)))), "nearest")
 

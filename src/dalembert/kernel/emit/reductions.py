@@ -20,7 +20,7 @@ SUMS = {"sum": 0, "square": 1, "power8": 3}
 
 _START = {"min": float("inf"), "max": float("-inf"), "peak": -1.0}
 FARTHEST = {"min": sys.float_info.max, "max": -sys.float_info.max, "peak": -1.0}
-"""What is there before the first position; the value at the place that is kept, which is subtracted, is finite."""
+"""The extreme before the first position; the value at the place that is kept, which is subtracted, is finite."""
 
 Slots = tuple[tuple[int, str], ...]
 """Output index and reduction of each slot: peak, min, max, with arg before them, or a sum."""
@@ -116,7 +116,7 @@ class Reductions:
         return t.let(f"call reassoc nsz double @llvm.vector.reduce.{how}.{t.suffix}({start}{t.kind} {x})")
 
     def beyond(self, how: str, p: str, x: str, held: str) -> str:
-        """Whether a value is an extreme beside another by more than rounding ("ogt"), or is not ("ule")."""
+        """Test that a value is an extreme beside another by more than rounding ("ogt"), or is not ("ule")."""
         t = self.t
         more = t.exact("fsub", *((held, x) if p.endswith("min") else (x, held)))
         return t.compare(how, more, t.exact("fmul", t.intrinsic("fabs", held), t.splat(TIE)))

@@ -3559,15 +3559,20 @@ var Mn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 			name: e.name,
 			before: this.quantity(a.here[e.row], e.kind),
 			after: this.quantity(a.hereAfter[e.row], e.kind)
-		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
+		})), d = l.length === 1 ? "reverses" : "reverse", f = l.length === 1 ? "its" : "their";
 		return {
 			...i,
 			joints: e === "reversal" ? Mn(l) : l.join(", "),
 			verb: d,
+			whose: f,
 			values: Mn(u),
 			name: s[0] ?? "",
-			names: Mn(s)
+			intervals: this.intervals()
 		};
+	}
+	intervals() {
+		let e = (e) => this.s.unknowns.filter((t) => !!t.single === e).map((e) => e.name), t = e(!1), n = e(!0);
+		return [...t.length ? [`${Mn(t)} ${t.length === 1 ? "lies" : "each lie"} in an interval`] : [], ...n.length ? [`${Mn(n)} ${n.length === 1 ? "does" : "do"} not depend on it`] : []].join("; ");
 	}
 	figures(e, t) {
 		let { kernel: n, s: r, data: i } = this, a = n.values.slice(), o = new Float64Array(n.here.length), s = i.numbers.flatMap((e, t) => /(^|\.)friction\.coefficient$/.test(e.path) ? [t] : []);

@@ -94,7 +94,17 @@ def _unknowns(known: Result, rows: NodeRows) -> list[Tree]:
         (name, "moment" if couple else "force", s.unknown_load(name)[0])
         for name, couple in zip(known.unknown_loads, c.known.couple, strict=True)
     ]
-    return [{"name": name, "kind": kind, "row": rows.of(value)} for name, kind, value in (*efforts, *loads)]
+    return [
+        {"name": name, "kind": kind, "row": rows.of(value)}
+        | ({"single": True} if _single(known, name) else {})
+        for name, kind, value in (*efforts, *loads)
+    ]
+
+
+def _single(known: Result, name: str) -> bool:
+    """True where contacts at rest leave an unknown one value."""
+    rest = np.array(known.status) == "at_rest"
+    return bool(rest.any() and friction.one_value(*known.interval(name)[rest].T).all())
 
 
 def _contacts(known: Result, k: Kernel, rows: NodeRows) -> list[Tree]:

@@ -282,7 +282,7 @@ class _Solution:
         self.sheet.text(f"{self._scales()} It is {check.residual:.2g}.")
 
     def _scales(self) -> str:
-        """What the two parts of the residual are divided by."""
+        """Divisors of the two parts of the residual."""
         length = self.shown.text("length", self.s.length)
         force = max((f.size for f in self.s.forces), default=0.0)
         if not self.s.length:

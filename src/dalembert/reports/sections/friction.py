@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.compile.contacts import circle as circle_kind
-from dalembert.analysis.friction.efficiency import efficiency, given
+from dalembert.analysis.friction.efficiency import efficiency, supplied
 from dalembert.analysis.friction.friction_circles import (
     TwoPins,
     friction_circles,
@@ -214,7 +214,7 @@ def cost(sheet: ReportSheet, c: ReportContext) -> None:
     if not total > 0:
         return
     drives = sum(float((r.effort(d) * r.drive_speed(d))[k]) for d in r.drives)
-    put_in = given(drives, total)
+    put_in = supplied(drives, total)
     rows = [
         [n, shown.number("power", p), "–" if r.unknown_loads else c.notation.percent(p / put_in)]
         for n, p in [*lost.items(), ("sum", total)]
