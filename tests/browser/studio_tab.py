@@ -196,4 +196,5 @@ def tabs(browser: Any) -> Iterator[Callable[[Any], Studio]]:
     yield one
     for context in contexts:
         context.close()
-    assert [s.complaints for s in opened if s.complaints] == []
+    said = [s.complaints for s in opened if s.complaints]
+    assert said == [], said

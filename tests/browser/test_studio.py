@@ -175,6 +175,25 @@ def test_a_phone_draws_with_taps(tabs: Any, tmp_path: Path) -> None:
 
 
 @pytest.mark.long
+def test_what_is_deleted_while_it_is_dragged_is_let_go(tabs: Any, tmp_path: Path) -> None:
+    path = tmp_path / "m.yaml"
+    path.write_text(FOUR_BAR, encoding="utf-8")
+    with serving(path) as served:
+        s = tabs(served)
+        at = s.page.evaluate("studio.state().drawing.links.find(l => l.name === 'coupler').points.P")
+        x, y = s.pixel(*at)
+        s.page.keyboard.press("v")
+        s.page.mouse.move(x, y)
+        s.page.mouse.down()
+        s.page.mouse.move(x + 30, y, steps=3)
+        s.page.keyboard.press("Delete")
+        s.answered()
+        s.page.mouse.move(x + 60, y, steps=3)
+        s.page.mouse.up()
+        s.answered()
+        assert "P" not in da.loads(s.text).links["coupler"].points
+
+
 def test_keys_and_drags_at_random_leave_a_readable_file(tabs: Any, tmp_path: Path) -> None:
     r, path = Random(5), tmp_path / "m.yaml"
     path.write_text(FOUR_BAR, encoding="utf-8")

@@ -183,6 +183,10 @@ export class Hand {
       this.canvas.window.pan(x - before[0], y - before[1]);
       this.shown.again();
     } else if (g.kind === "move") {
+      if (!pointOf(this.shown.drawing(), g.picked!)) { // an undo or a deletion has taken it away meanwhile
+        this.drag = null;
+        return this.settle();
+      }
       this.place = this.snapAway(e, g.picked!);
       this.shadow = moved(this.shown.drawing(), g.picked!, this.place.at);
       this.shown.again();
@@ -193,7 +197,7 @@ export class Hand {
   }
   /** Snaps to points other than those at the place that is dragged. */
   private snapAway(e: PointerEvent, picked: Picked): Where {
-    const d = this.shown.drawing(), old = d.links.find((l) => l.name === picked.link)!.points[picked.name], to = this.snap(e);
+    const old = pointOf(this.shown.drawing(), picked)!, to = this.snap(e);
     if (!to.point || dist(to.at, old) * this.canvas.window.scale > 3) return to;
     return { at: this.canvas.window.metres(...this.xy(e)) };
   }
@@ -373,9 +377,12 @@ export class Hand {
 /** A place as the server takes it. */
 const plain = ({ at, link, point }: Where): Where => (point ? { at, link, point } : { at });
 
+/** The place of a picked point, if it is there. */
+const pointOf = (d: Drawing, p: Picked): Point | undefined => d.links.find((l) => l.name === p.link)?.points[p.name];
+
 /** The drawing with all points at one place moved. */
 function moved(d: Drawing, p: Picked, to: Point): Drawing {
-  const old = d.links.find((l) => l.name === p.link)!.points[p.name], there = (q: Point): Point => (dist(q, old) < 1e-9 ? to : q);
+  const old = pointOf(d, p)!, there = (q: Point): Point => (dist(q, old) < 1e-9 ? to : q);
   return {
     ...d,
     links: d.links.map((l) => ({ ...l, center: undefined, points: Object.fromEntries(Object.entries(l.points).map(([n, q]) => [n, there(q)])) })),

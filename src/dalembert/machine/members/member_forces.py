@@ -17,7 +17,7 @@ import numpy as np
 
 from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.answer.column import Column, Scale
-from dalembert.arrays import Array, Flags, Tree
+from dalembert.arrays import Array, Flags, Tree, first_largest
 from dalembert.core.equilibrium import UNIQUE
 from dalembert.errors import ModelError
 from dalembert.machine.members.link_balance import LinkBalance, Loads, Wrench, acting
@@ -158,7 +158,7 @@ class MemberForces:
         known = np.isfinite(values).all(axis=0)
         if not known.any():
             return math.nan, self.curves[0].name, math.nan, 0
-        j, k = np.unravel_index(np.argmax(np.where(known, np.abs(values), -1.0)), values.shape)
+        j, k = divmod(first_largest(np.where(known, np.abs(values), np.nan)), values.shape[1])
         return float(values[j, k]), self.curves[j].name, float(places[j, k]), int(k)
 
     def unknown(self) -> dict[str, list[str]]:
