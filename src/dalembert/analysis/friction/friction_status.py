@@ -181,9 +181,7 @@ def _reversal_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     k = int(run[0])
     joints = list(dict.fromkeys(c.joints[j] for j in c.contacts.joint[f.friction.reversing[k]]))
     verb = "reverses" if len(joints) == 1 else "reverse"
-    before, after = (
-        np.concatenate([side.effort[k, c.known.requested], side.load[k]]) for side in (f, f.after)
-    )
+    before, after = (_values(c, side)[k] for side in (f, f.after))
     values = _and(
         [
             BOTH_SIDES.format(name=name, before=quantity_text(c, kind, a), after=quantity_text(c, kind, b))
@@ -230,11 +228,14 @@ def one_value(low: Array, high: Array) -> Flags:
     return np.asarray(np.isclose(low, high, rtol=1e-12, atol=0.0))
 
 
+def _values(c: Compiled, f: SolvedForces) -> Array:
+    """Unknown efforts and loads (P, unknown)."""
+    return np.concatenate([f.effort[:, c.known.requested], f.load], axis=1)
+
+
 def _ends(c: Compiled, f: SolvedForces, run: Ints) -> Array:
     """Low and high end of each unknown (position, unknown, 2)."""
-    every = np.stack(
-        [np.concatenate([e.effort[:, c.known.requested], e.load], axis=1)[run] for e in f.ends], axis=-1
-    )
+    every = np.stack([_values(c, end)[run] for end in f.ends], axis=-1)
     return np.stack([every[:, n, 2 * n : 2 * n + 2] for n in range(every.shape[1])], axis=1)
 
 
@@ -290,8 +291,7 @@ def _and(names: list[str]) -> str:
 
 def _there(c: Compiled, ends: tuple[SolvedForces, ...], run: Ints) -> list[bool]:
     """True where the ends of an unknown's interval have a value at some of these positions."""
-    values = [np.concatenate([e.effort[:, c.known.requested], e.load], axis=1)[run] for e in ends]
-    return [bool(np.isfinite(v).all(axis=1).any()) for v in values]
+    return [bool(np.isfinite(_values(c, end)[run]).all(axis=1).any()) for end in ends]
 
 
 def _limits(c: Compiled, ends: tuple[SolvedForces, ...], run: Ints) -> str:
