@@ -153,7 +153,7 @@ def test_a_rim_may_just_reach_its_axis(part: float) -> None:
     inertia = density * 2 * math.pi * radius * breadth * height * (radius**2 + height**2 / 4)
     size = da.flywheel_size(inertia * 0.02 * 400, speed=20, Cs=0.02)
     if part > 1:
-        with pytest.raises(da.ModelError, match="m high about a mean radius of 0.3 m"):
+        with pytest.raises(da.ModelError, match=r"m high about a mean radius of 0\.3 m"):
             size.rim(density, radius, breadth=breadth)
         with pytest.raises(da.ModelError, match="beyond its axis"):
             size.rim(density, radius, height=height)
