@@ -17,7 +17,9 @@ from dalembert.core.equilibrium import LinkMotions
 from dalembert.core.friction.capstan import capstan
 from dalembert.core.friction.contact_equations import (
     ContactResponse,
+    SlipState,
     _below,
+    argument,
     bearing,
     group_moves,
     impending_senses,
@@ -26,7 +28,7 @@ from dalembert.core.friction.contact_equations import (
     strength,
     zero_crossings,
 )
-from dalembert.core.friction.friction_solver import _goes_on, newton, without_friction
+from dalembert.core.friction.friction_solver import _goes_on, newton, solve_friction, without_friction
 from dalembert.core.friction.linear_programmes import furthest
 from dalembert.core.friction.reversal import ASIDE, _moment
 from dalembert.core.friction.rod_spin import STEEPEST, _bracket_root, solve_spins
@@ -67,12 +69,60 @@ def test_a_block_pressed_by_its_own_friction_has_its_closed_form_at_any_size(siz
     h = np.zeros((1, 3, 2, 2))
     h[0, 0], h[0, 1] = [[0.1, 0.4], [-0.3, 0.2]], [[0.3, -0.2], [0.5, 0.1]]
     y = np.array([[[3.0, -1.0], [0.5, 2.0], [0.0, 0.0]]])
-    one = np.ones((1, 2))
-    found = newton(contacts(2), response(y * size, h), one, mu * one, np.zeros((1, 2)))
-    like = newton(contacts(2), response(y, h), one, mu * one, np.zeros((1, 2)))
-    assert found.z / size == pytest.approx(like.z, rel=1e-11)
-    left = y[0] + (h[0] @ (mu * like.z[0]))
-    assert -like.z[0] == pytest.approx(np.hypot(left[0], left[1]), rel=1e-12)
+    for one in (np.ones((1, 2)), -np.ones((1, 2)), np.array([[1.0, -1.0]])):
+        found = newton(contacts(2), response(y * size, h), one, mu * abs(one), np.zeros((1, 2)))
+        like = newton(contacts(2), response(y, h), one, mu * abs(one), np.zeros((1, 2)))
+        assert found.z / size == pytest.approx(like.z, rel=1e-11)
+        left = y[0] + (h[0] @ (mu * like.z[0]))
+        assert -one[0] * like.z[0] == pytest.approx(np.hypot(left[0], left[1]), rel=1e-12)
+
+
+def test_positions_of_a_batch_are_solved_as_each_alone_and_loads_that_are_nothing_do_not_count() -> None:
+    """One that is linear, one that is not, one without a load; beside -1 N a contact with 1e-20 N has no part in the
+    determinant, which is then that of the other, 1 + 0.5 mu."""
+    h = np.zeros((3, 3, 2, 2))
+    h[:, 0] = np.diag([0.5, 0.5])
+    h[1, 1] = [[0.3, -0.2], [0.5, 0.1]]
+    y = np.array([[[-1.0, 1e-20], [0, 0], [0, 0]], [[3.0, -1.0], [0.5, 2.0], [0, 0]], np.zeros((3, 2))])
+    sense, c = np.array([[-1.0, 1.0]] * 3), np.full((3, 2), 0.4)
+    found = newton(contacts(2), response(y, h), sense, c, np.zeros((3, 2)))
+    assert found.arrived.all()
+    assert found.z[[0, 2]] == pytest.approx(np.array([[1 / 1.2, 0.0], [0.0, 0.0]]))
+    assert found.determinant[0] == pytest.approx(1.2, rel=1e-5)
+    for k in range(3):
+        alone = newton(contacts(2), response(y[[k]], h[[k]]), sense[[k]], c[[k]], np.zeros((1, 2)))
+        assert alone.z == pytest.approx(found.z[[k]], rel=1e-12)
+        near = newton(
+            contacts(2),
+            response(y[[k]], h[[k]]),
+            sense[[k]],
+            c[[k]],
+            alone.z,
+            argument(response(y[[k]], h[[k]]), 0.4 * alone.z),
+        )
+        assert near.near.tolist() == [True]
+        assert near.z == pytest.approx(alone.z, rel=1e-12)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.9, 1.25, 2.0, 8.0])
+@pytest.mark.parametrize("size", [1e-12, 3.0])
+def test_friction_that_presses_its_own_contact_jams_from_a_coefficient_on(mu: float, size: float) -> None:
+    """N + mu z = z with z = S: N / (1 - mu); it ends where the coefficients have grown to 1."""
+    c = contacts(1, coefficient=[mu], resting=[3.0])
+    r = response([[[size], [0.0], [0.0]]], [[[[-1.0]], [[0.0]], [[0.0]]]])
+    for sense in (1.0, -1.0):
+        s = solve_friction(c, r, SlipState(np.array([[sense]]), np.array([[False]]), np.array([[sense]])))
+        if sense * mu < 1:
+            assert s.z == pytest.approx(np.array([[-sense * size / (1 - sense * mu)]]))
+            assert np.isnan(s.critical).all()
+            assert s.x == pytest.approx(1 + mu * s.z * np.ones((1, 2)))
+            assert s.determinant == pytest.approx([1 - sense * mu])
+            assert s.single[0] == (mu < 1)
+        else:
+            assert s.critical == pytest.approx([1 / mu], abs=2e-9)
+            assert np.isnan(s.z).all()
+    rest = solve_friction(c, r, SlipState(np.array([[1.0]]), np.array([[True]]), np.zeros((1, 1))))
+    assert rest.critical == pytest.approx([1 / 3], abs=2e-9)
 
 
 def test_without_friction_the_separation_of_teeth_stays() -> None:
@@ -125,15 +175,20 @@ def test_the_bound_of_a_positive_matrix_is_its_largest_sum_where_all_sums_are_eq
     assert largest <= spectral_bound(contacts(2), response(np.ones((1, 3, 2)), h))[0] <= 1.01 * largest
     nothing = spectral_bound(contacts(2), response(np.ones((1, 3, 2)), 0 * h))
     assert nothing[0] < 1e-100
-    h[0] = [np.diag([3.0, 3.0]), np.diag([4.0, 4.0]), np.diag([12.0, 4.0])]
-    for keys, bound in (({}, 12.0), ({"ball": [True, True]}, 13.0), ({"signed": [True, True]}, 3.0)):
+    h[0] = [np.diag([-3.0, 3.0]), np.diag([4.0, 4.0]), np.diag([12.0, 4.0])]
+    for keys, bound in (
+        ({}, 12.0),
+        ({"ball": [True, True]}, 13.0),
+        ({"ball": [True, False]}, 13.0),
+        ({"signed": [True, True]}, 3.0),
+    ):
         some = contacts(2, **keys)
         assert spectral_bound(some, response(np.ones((1, 3, 2)), h)) == pytest.approx([bound], rel=1e-2)
 
 
 def test_the_bearing_force_is_the_larger_of_the_force_and_the_tilt_and_has_its_slope() -> None:
     """Of (3, 4) 5, of a tilt of -6 beside it 6; of a guide's faces the force with its sign; of a ball the length."""
-    y = np.array([[3.0, 3.0, 3.0, -3.0], [4.0, 4.0, 4.0, 4.0], [0.0, -6.0, 5.0, 12.0]])
+    y = np.array([[3.0, 3.0, 3.0, -3.0], [4.0, 4.0, 4.0, 4.0], [2.0, -6.0, 5.0, 12.0]])
     plain = contacts(4)
     assert bearing(plain, y).tolist() == [5.0, 6.0, 5.0, 12.0]
     steep, size = slope(plain, y, np.array(12.0))
@@ -144,11 +199,12 @@ def test_the_bearing_force_is_the_larger_of_the_force_and_the_tilt_and_has_its_s
     steep, size = slope(faces, y, np.array(12.0))
     assert size.tolist() == [3.0, 6.0, 5.0, -3.0]
     assert steep.T[[0, 3]].tolist() == [[1, 0, 0], [1, 0, 0]]
-    balls = contacts(4, ball=[False, True, True, True])
+    balls = contacts(4, ball=[False, True, True, True])  # the first has two components
     assert bearing(balls, y) == pytest.approx([5.0, math.sqrt(61), math.sqrt(50), 13.0])
     steep, size = slope(balls, y, np.array(12.0))
     assert size == pytest.approx([5.0, math.sqrt(61), math.sqrt(50), 13.0])
     assert steep.T[3] == pytest.approx(np.array([-3.0, 4.0, 12.0]) / 13)
+    assert steep.T[0] == pytest.approx([0.6, 0.8, 0.0])
     for keys in (
         {},
         {"ball": [True]},
@@ -180,7 +236,7 @@ def test_a_rate_below_a_part_of_the_fastest_is_rest(sense: float) -> None:
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_a_rate_passes_through_zero_where_it_would_be_gone_in_a_billionth_of_the_motion(sense: float) -> None:
     """Fastest 4 m/s over 2 m: 0.5 s, 5e-10 s of it; a rate of 1 e-9 m/s passes with 2 m/s^2, and not with less."""
-    twist, rate = np.array([[4.0, 0.0, 0.0], [0.0, 0.0, 0.0]]), np.array([sense * 1e-9] * 2)
+    twist, rate = np.array([[sense * 4.0, 0.0, 0.0], [0.0, 0.0, 0.0]]), np.array([sense * 1e-9] * 2)
     for second, passes in ((2.02, True), (1.98, False), (-2.02, True), (-1.98, False)):
         one = zero_crossings(LAYOUT, contacts(2), twist, rate, np.array([second, 0.0]))
         assert one.tolist() == [passes, False]
@@ -223,9 +279,11 @@ def test_the_strength_of_a_contact_is_that_of_its_shape() -> None:
         [2.4, 0.75 / math.hypot(1, 0.375), 4 * math.tanh(1.2), 2.0]
     )
     assert strength(c, 0.0).tolist() == [0.0, 0.0, 0.0, 2.0]
-    around = contacts(2, coefficient=[0.75, 0.75], group=[0, 0], around=[True, True], angular=[True, False])
-    assert strength(around, 1.0, sense=np.array([1.0, 0.0])) == pytest.approx([0.6, 0.6])
-    assert strength(around, 1.0, sense=np.array([0.0, 1.0])) == pytest.approx([0.75, 0.75])
+    around = contacts(
+        3, coefficient=[0.75] * 3, group=[0, 0, 1], around=[True, True, False], angular=[True, False, True]
+    )
+    assert strength(around, 1.0, sense=np.array([1.0, 0.0, 1.0])) == pytest.approx([0.6, 0.6, 0.75])
+    assert strength(around, 1.0, sense=np.array([0.0, 1.0, 1.0])) == pytest.approx([0.75] * 3)
 
 
 def test_the_coefficient_of_a_strength_is_the_inverse_of_the_strength() -> None:
@@ -288,6 +346,8 @@ def test_a_place_aside_of_a_reversal_is_reached_by_the_speed_or_from_rest_by_the
 def test_a_spin_is_the_root_of_its_moment_and_none_without_a_change_of_sign(
     moment: Callable[[Any], Any], root: float
 ) -> None:
+    both = _bracket_root(lambda x: np.array([-x[0], moment(x[1])]), (2,))  # the first is met at once
+    assert both == pytest.approx([0.0, root], abs=1e-5 if root in (0.3, 1e-3) else 1e-12)
     found = _bracket_root(moment, (2,))
     assert found == pytest.approx([root] * 2, abs=1e-5 if root in (0.3, 1e-3) else 1e-12)
 
@@ -295,8 +355,13 @@ def test_a_spin_is_the_root_of_its_moment_and_none_without_a_change_of_sign(
 def test_rods_spin_together_or_each_as_it_would_beside_the_other() -> None:
     """Two moments that depend on each other, linear: the root by hand; where one of them has none within the limit,
     the other's is taken at rest of that one."""
-    matrix, at = np.array([[2.0, 0.5], [-0.4, 1.0]]), np.array([[0.3, -0.8], [1.1, 0.2]])
-    assert solve_spins((2, 2), lambda x: (at - x) @ matrix.T) == pytest.approx(at, abs=1e-9)
+    at = np.array([[0.3, -0.8], [1.1, 0.2], [-0.2, -0.7]])
+    for matrix in (np.array([[2.0, 0.5], [-0.4, 1.0]]), np.array([[1.0, 0.95], [0.95, 1.0]])):
+        assert solve_spins((3, 2), lambda x, m=matrix: (at - x) @ m.T) == pytest.approx(at, abs=1e-9)  # type: ignore[misc]
+        bent = lambda x, m=matrix: (at + at**3 - x - x**3) @ m.T  # noqa: E731
+        assert solve_spins((3, 2), bent) == pytest.approx(at, abs=1e-9)
+    never = solve_spins((1, 2), lambda x: np.stack([0.3 - x[:, 0], np.exp(10 * x[:, 1])], axis=-1))
+    assert never == pytest.approx(np.array([[0.3, 0.0]]), abs=1e-9)
     beyond = np.array([[0.3, 2.0]])
     assert solve_spins((1, 2), lambda x: beyond - x) == pytest.approx(np.array([[0.3, 0.0]]), abs=1e-9)
     below = np.array([[0.3, -2.0]])
