@@ -10,10 +10,22 @@ import numpy as np
 import pytest
 
 from dalembert.algebra import plane
-from dalembert.core.layout import Pose
-from dalembert.core.position.assembly_modes import NEAR, _wind, distinct, wrap_angle
+from dalembert.core.layout import Pose, Turn
+from dalembert.core.position import assembly_modes
+from dalembert.core.position.assembly_modes import (
+    NEAR,
+    Wanted,
+    _order,
+    _wind,
+    counted_links,
+    distinct,
+    remove_whole_turns,
+    shift_from,
+    sort_modes,
+    wrap_angle,
+)
 from dalembert.core.position.continuation import STEP, Nodes, Station, _around, _passes, _safe, interpolate
-from dalembert.core.position.dyads import TOUCHING, _roots
+from dalembert.core.position.dyads import TOUCHING, Laid, _roots
 from dalembert.core.position.link_tree import Edges, spread_turns
 from dalembert.core.position.motion_path import Path as MotionPath
 from dalembert.core.position.motion_path import _first_reached, _separate
@@ -301,6 +313,77 @@ def test_modes_are_the_same_within_a_ten_thousandth_of_the_machine_and_but_for_w
         assert len(distinct(layout, poses).turn) == count, (off, turn)
     three = distinct(layout, pose_of([1.0, 3.0, 1.0, 3.0, 2.0], [0.5] * 5))
     assert three.point[:, 0, 0].tolist() == [1.0, 3.0, 2.0]
+
+
+def laid(rows: list[tuple[float, float, float]], length: float = 2.0) -> tuple[Any, Laid]:
+    """Modes of two links by the side of a group, the angle of the first link and its place along x."""
+    side, turn, x = np.array(rows, float).T
+    point = np.zeros((len(rows), 3, 2))
+    point[:, 0, 0] = x
+    layout: Any = SimpleNamespace(length=length)
+    return layout, Laid(point, np.stack([turn, 0 * turn, 0 * turn], axis=-1), side[:, None])
+
+
+def given(angle: float, x: float = NAN, start: float | None = None) -> Wanted:
+    point = np.full((3, 2), NAN)
+    point[0, 0] = x
+    turn = np.array([angle, NAN, 0.0])
+    pose = None if start is None else Pose(np.zeros((3, 2)), np.array([start, 0.0, 0.0]), np.zeros((3, 2)))
+    return Wanted(turn, point, pose)
+
+
+@pytest.mark.parametrize(
+    ("rows", "wanted", "order"),
+    [
+        # the side first, of which one that is not known is none that is wrong; then the angle; then the place
+        ([(-1, 0.5, 3), (1, 0.9, 1), (1, 0.7, 2), (0, 0.6, 9)], given(0.5, 1.0), [3, 2, 1, 0]),
+        ([(1, 0.6, 3), (1, 0.4, 2), (1, 0.5 + TURN, 9)], given(0.5, 1.0), [2, 1, 0]),
+        ([(1, 0.6, 3), (1, 0.6, -2), (1, 0.6, 2)], given(0.6, 1.0), [2, 0, 1]),
+        # the pose that Newton reaches settles what the places leave open
+        ([(1, 0.6, 0.4), (1, 0.4, 0.2), (1, 0.6, 0.0)], given(0.5, NAN, 0.6), [2, 0, 1]),
+        # all alike but for what the sliders and heights say: further along first, then higher
+        ([(1, 0.6, 2), (1, 0.6, 2), (1, 0.4, 2), (1, 0.6, 2)], given(0.5, 1.0), [1, 3, 2, 0]),
+        # without angles these decide after the sides
+        ([(1, 0.6, 0.1), (-1, 0.6, 0), (1, 0.4, 0), (1, 0.6, 0)], given(NAN), [1, 3, 2, 0]),
+        ([(1, 0.6, 0.1), (1, 0.6, 0), (1, 0.4, 0), (1, 0.6, 0)], given(NAN, NAN, 0.4), [1, 3, 2, 0]),
+    ],
+)
+def test_modes_are_ordered_by_sides_then_angles_then_places_then_sliders(
+    rows: list[tuple[float, float, float]], wanted: Wanted, order: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    along, height = np.array([0.1, 0.3, 0.2, 0.3]), np.array([9.0, 8.0, 7.0, 6.0])
+    monkeypatch.setattr(
+        assembly_modes, "measures", lambda layout, pose: (along[: len(rows)], height[: len(rows)])
+    )
+    monkeypatch.setattr(assembly_modes, "to_pose", lambda layout, placed: placed)
+    layout, placed = laid(rows)
+    stated = np.array([1.0 if wanted.any_known else 0.0, 0.0])
+    assert wanted.any_known == (not math.isnan(wanted.turn[0]))
+    assert _order(layout, placed, stated, wanted).tolist() == order
+
+
+def test_modes_whose_groups_are_unknown_are_ordered_by_angles_then_places(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(
+        assembly_modes, "measures", lambda layout, pose: (np.array([1.0, 2, 2]), np.array([9.0, 1, 5]))
+    )
+    layout, placed = laid([(0, 0.6, 3), (0, 0.6 - TURN, 2), (0, 0.5, 7)])
+    pose = Pose(placed.point, placed.turn, placed.point)
+    assert sort_modes(layout, pose, given(0.5, 1.0)).tolist() == [2, 1, 0]
+    assert sort_modes(layout, pose, given(0.61, 3.0)).tolist() == [0, 1, 2]
+    assert sort_modes(layout, pose, given(NAN)).tolist() == [2, 1, 0]
+    assert shift_from(layout, pose, given(0.5, 1.0).point) == pytest.approx([1.0, 0.5, 3.0])
+
+
+def test_whole_turns_are_kept_only_of_links_that_some_row_counts() -> None:
+    one = np.array([0])
+    layout: Any = SimpleNamespace(links=3, stack=SimpleNamespace(families=[Turn(one, one + 3, one + 1)]))
+    assert counted_links(layout).tolist() == [False, True, False]
+    turn = np.array([7.0, 7.0, -4.0, 0.0])
+    pose = remove_whole_turns(layout, Pose(np.zeros((4, 2)), turn, np.zeros((4, 2))))
+    assert pose.turn == pytest.approx([7 - TURN, 7.0, TURN - 4, 0.0])
+    assert turn.tolist() == [7.0, 7.0, -4.0, 0.0]
 
 
 def test_the_distance_of_two_poses_is_a_turn_or_a_shift_by_the_size_of_the_machine() -> None:
