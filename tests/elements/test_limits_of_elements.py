@@ -79,6 +79,8 @@ def test_a_wheel_holds_up_to_the_tension_of_euler_and_eytelwein(
     )
     assert both[0] == pytest.approx([2, 2, 4 * math.tanh(mu * angle / 2), 0], abs=1e-8)
     assert both[1, 3] == pytest.approx(-1.0)
+    pushed = rope_margins(layout, grips((0, 1, way, turns, 0.0)), pose, np.array([-1.0, -1.0]))
+    assert pushed == pytest.approx([-1.0, -1.0, 2e-9], rel=1e-6)
 
 
 def test_a_belt_slips_or_hangs_slack_from_its_tensions_on(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -101,6 +103,13 @@ def test_a_belt_slips_or_hangs_slack_from_its_tensions_on(monkeypatch: pytest.Mo
     assert belt_margins(layout, pulls, pose, np.zeros(3), np.array([6.0, 0.0]))[0] == pytest.approx(
         6e-9, abs=1e-15
     )
+    fast = BeltPulls(
+        np.array([3.0, 10.0]),
+        *(np.array(x) for x in ([0.0, 1.0], [0.5, 0.0], [0, 0], [False, True], [0, 0.4])),
+    )
+    assert belt_margins(layout, fast, pose, np.zeros(3), np.zeros(2))[0] == pytest.approx(
+        -1 + 1e-9, abs=1e-12
+    )
     assert belt_margins(layout, None, pose, np.zeros(3), np.ones(2)).shape == (0,)
     monkeypatch.setattr(belt_pulls, "belts", lambda layout: None)
     assert strand_limits.belt_margins(layout, pulls, pose, np.zeros(3), np.ones(2)).shape == (0,)
@@ -111,11 +120,11 @@ def test_a_belt_slips_or_hangs_slack_from_its_tensions_on(monkeypatch: pytest.Mo
 
 
 def table() -> np.ndarray[Any, Any]:
-    """Five pieces: a rise, a dwell, a wave, a circle about a point aside, a straight line."""
+    """Five pieces, two of which start elsewhere than they hold: rise, dwell, wave, circle aside, straight line."""
     rows = [
-        piece(0.0, c0=1.0, c2=0.5, c7=-0.01),
+        [0.2, *piece(0.0, c0=1.0, c2=0.5, c7=-0.01)[1:]],
         piece(1.2, c0=1.3),
-        piece(2.0, c0=1.3, c1=0.1, amplitude=0.2, frequency=2.0, phase=0.3),
+        [2.0, *piece(1.5, c0=1.3, c1=0.1, amplitude=0.2, frequency=2.0, phase=0.3)[1:]],
         piece(3.1, center=0.3, shift=0.4, circle=1.0, radius=2.0),
         piece(5.0, line=1.1, straight=1.0, shift=-0.3),
     ]
@@ -124,13 +133,13 @@ def table() -> np.ndarray[Any, Any]:
 
 def by_hand(x: float) -> float:
     """The lift of the table in its own words."""
-    x %= TURN
+    x = 0.2 + (x - 0.2) % TURN
     if x < 1.2:
         return 1 + 0.5 * x**2 - 0.01 * x**7
     if x < 2.0:
         return 1.3
     if x < 3.1:
-        return 1.3 + 0.1 * (x - 2) + 0.2 * math.sin(2 * (x - 2) + 0.3)
+        return 1.3 + 0.1 * (x - 1.5) + 0.2 * math.sin(2 * (x - 1.5) + 0.3)
     if x < 5.0:
         v = x - 3.1 + 0.4
         return 0.3 * math.cos(v) + math.sqrt(4 - (0.3 * math.sin(v)) ** 2)
@@ -140,42 +149,27 @@ def by_hand(x: float) -> float:
 def test_a_table_of_pieces_has_the_lift_of_each_and_its_derivatives() -> None:
     """In numbers and in arrays of objects, at joints, just before them and a turn on; rates by differences."""
     one = table()[None]
-    places = [
-        0.0,
-        0.4,
-        1.2 - 1e-9,
-        1.2,
-        1.7,
-        2.0,
-        2.7,
-        3.1,
-        4.0,
-        5.0 - 1e-9,
-        5.0,
-        6.0,
-        TURN - 1e-9,
-        TURN,
-        8.0,
-        -0.5,
-    ]
+    places = [0.0, 0.1, 0.2 - 1e-9, 0.2, 0.4, 1.2 - 1e-9, 1.2, 1.7, 2.0, 2.7, 3.1, 4.0, 5.0 - 1e-9, 5.0, 6.0]
+    places += [TURN - 1e-9, TURN, 6.48, 8.0, -0.5, -9.0, 21.0, 6.3, 7.5]
     x = np.array(places)[:, None]
     values = lift(one, x)
     assert values[0][:, 0] == pytest.approx([by_hand(p) for p in places], abs=1e-8)
     h = 1e-5
     for place, first, second in zip(places, values[1][:, 0], values[2][:, 0], strict=True):
-        if min(abs((place - start + 1) % TURN - 1) for start in (0.0, 1.2, 2.0, 3.1, 5.0)) > 2 * h:
+        if min(abs((place - start + 1) % TURN - 1) for start in (0.2, 1.2, 2.0, 3.1, 5.0)) > 2 * h:
             low, mid, high = (by_hand(place + k * h) for k in (-1, 0, 1))
             assert first == pytest.approx((high - low) / (2 * h), abs=1e-8)
             assert second == pytest.approx((high - 2 * mid + low) / h**2, abs=1e-4)
-    for given in (x, x.reshape(4, 4, 1)):
+    for given in (x, x.reshape(4, 6, 1)):
         objects = lift(one.astype(object), given.astype(object))
         for a, b in zip(objects, lift(one, given), strict=True):
             assert np.array(a, float) == pytest.approx(b, rel=1e-12)
-    short = lift(one, np.array([[1.2 - SNAP / 2], [1.2 - 2 * SNAP], [-SNAP / 2], [-2 * SNAP]]))[1][:, 0]
-    before = 1.2 - 0.07 * 1.2**6
-    assert short[:2] == pytest.approx([0.0, before])
-    assert short[2] == pytest.approx(0.0, abs=1e-9)
-    assert short[3] == pytest.approx(lift(one, np.array([[TURN - 1e-9]]))[1][0, 0])
+    short = np.array([[1.2 - SNAP / 2], [1.2 - 2 * SNAP], [0.2 - SNAP / 2], [0.2 - 2 * SNAP]])
+    before, end = 1.2 - 0.07 * 1.2**6, TURN + 0.2 - 5.3
+    last = 1.1 * math.tan(end) / math.cos(end)
+    for given in (one, one.astype(object)):
+        slopes = np.array(lift(given, short.astype(given.dtype))[1], float)[:, 0]
+        assert slopes == pytest.approx([0.0, before, 0.2 - 0.07 * 0.2**6, last])
 
 
 def test_tables_of_different_length_have_their_last_piece_again() -> None:
@@ -201,6 +195,13 @@ def test_a_second_derivative_jumps_from_a_millionth_of_the_largest_on() -> None:
         for size in (1.0, 1e-5, 1e5):
             rows = np.array([piece(0.3, c2=a * size), piece(0.3 + math.pi, c2=b * size)], float)
             assert with_jumps(rows)[:, -1].tolist() == [jumps, jumps], (a, b, size)
+    for size in (1.0, -1.0):  # 6 u up to 6, then from 6 + 9e-6 up to 12 and back: of 12 a millionth is more
+        grown = [
+            piece(0.0, c3=size),
+            piece(1.0, c2=size * (3 + 4.5e-6), c3=size),
+            piece(2.0, c2=6 * size, c3=-size),
+        ]
+        assert with_jumps(np.array(grown, float))[:2, -1].tolist() == [1.0, 0.0]
     rows = np.array([piece(0.0, c2=1.0), piece(1.0, c2=1.0, c3=0.0), piece(2.0, c2=2.0)], float)
     assert with_jumps(rows)[:, -1].tolist() == [1.0, 0.0, 1.0]
     bent = np.array(

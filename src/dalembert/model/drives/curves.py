@@ -93,7 +93,7 @@ class CurvePiece:
         )
 
     def extremes(self, order: int) -> list[float]:
-        """Places within the piece where a derivative of this order is stationary."""
+        """Places within the piece where a derivative of this order is stationary, ascending."""
         if self.amplitude:  # beside a sine wave the polynomial is at most of second degree
             c = np.polynomial.polynomial.polyder(self.polynomial, order + 1)
             size = self.amplitude * self.frequency ** (order + 1)
@@ -108,7 +108,7 @@ class CurvePiece:
             c = np.polynomial.polynomial.polyder(self.polynomial, order + 1)
             roots = np.polynomial.polynomial.polyroots(np.trim_zeros(c, "b")) if np.any(c) else np.zeros(0)
             out = [float(x.real) for x in roots if abs(x.imag) <= 1e-9 * self.length]
-        return [u for u in out if 0 < u < self.length]
+        return sorted(u for u in out if 0 < u < self.length)
 
 
 def integrated(speed: float, pieces: Iterable[tuple[float, float, float, float]]) -> tuple[CurvePiece, ...]:
