@@ -132,6 +132,8 @@ def test_the_first_of_equal_peaks_is_named() -> None:
     assert slow.extremes(1) == []  # 2 - sin u
     (flat,) = CurvePiece(2.0, (0.0, -math.cos(1.2)), 1.0, 1.0, 0.0).extremes(0)
     assert flat == pytest.approx(1.2)
+    (flat,) = CurvePiece(1.0, (0.0, -2 * math.cos(1.2)), 1.0, 2.0, 0.0).extremes(0)  # u = 1.2 / 2
+    assert flat == pytest.approx(0.6)
     assert CurvePiece(2.0, (0.0, 1.0, -1.0)).extremes(0) == [0.5]
     assert CurvePiece(0.5, (0.0, 1.0, -1.0)).extremes(0) == []  # at its end, not within
     assert CurvePiece(0.5, (3.0,)).extremes(0) == []
