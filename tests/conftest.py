@@ -28,6 +28,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    from dalembert.kernel.emit import machine_code  # numpy is imported with it
+
+    if "not long" in config.option.markexpr:
+        machine_code.LEVEL = (
+            0  # a third of the time of the tests of kernels; the long tests have it as users have
+        )
     seed = config.getoption("--shuffle")
     if seed is not None and config.args == config.getini("testpaths"):
         here = Path(__file__).parent

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
@@ -30,6 +30,7 @@ from tests.approved.printed import PRINTED
 from tests.approved.read_out import READ, model
 from tests.approved.simulated import MOVED
 from tests.approved.worked import WORKED_OUT
+from tests.tiers import tiers
 
 TEXTS = Path(__file__).with_name("texts")
 ROUNDING = re.compile(
@@ -177,8 +178,22 @@ GROUPS = (
 )
 
 
+SLOW = {
+    *("commands-documents", "commands-machines", "simulated-dome", "fields-mistakes", "wrong-quick-return"),
+    *("solution-rough-joints", "template-bevel_differential", "design-cam"),
+    *[f"template-{t}" for t in TEMPLATES][::2],
+}
+"""Whose tests are long: those over a second, and every other template's."""
+
+
+def named(names: Iterable[str]) -> Any:
+    some = list(names)
+    quick, long = [n for n in some if n not in SLOW], [n for n in some if n in SLOW]
+    return pytest.mark.parametrize("name", tiers(quick, long))
+
+
 def texts_of(*groups: str) -> Any:
-    return pytest.mark.parametrize("name", [n for n in TEXT if n.startswith(groups)])
+    return named(n for n in TEXT if n.startswith(groups))
 
 
 @texts_of("solution-")
@@ -236,7 +251,7 @@ def test_printed_troubles_are_as_they_were_read(name: str) -> None:
     assert changed(name) == []
 
 
-@pytest.mark.parametrize("name", [n for n in TEXT if not n.startswith(GROUPS)])
+@named(n for n in TEXT if not n.startswith(GROUPS))
 def test_texts_are_as_they_were_read(name: str) -> None:
     assert changed(name) == []
 

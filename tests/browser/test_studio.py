@@ -194,6 +194,7 @@ def test_what_is_deleted_while_it_is_dragged_is_let_go(tabs: Any, tmp_path: Path
         assert "P" not in da.loads(s.text).links["coupler"].points
 
 
+@pytest.mark.long
 def test_keys_and_drags_at_random_leave_a_readable_file(tabs: Any, tmp_path: Path) -> None:
     r, path = Random(5), tmp_path / "m.yaml"
     path.write_text(FOUR_BAR, encoding="utf-8")

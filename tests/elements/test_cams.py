@@ -21,6 +21,7 @@ from dalembert.pages.page_data import page_data
 from dalembert.views.paper.scene import Arrow, Circle, Polygon
 from tests.elements.random_cams import Case
 from tests.elements.test_cam_cases import sliding
+from tests.tiers import crossed, tiers
 
 RISE = [{"to": "20 mm", "in": "90 deg", "by": "cycloidal"}, {"dwell": "40 deg"}]
 FULL = [*RISE, {"to": 0, "in": "110 deg", "by": "polynomial345"}, {"dwell": "rest"}]
@@ -180,7 +181,7 @@ def test_a_swinging_face_touches_base_circles_between_two_radii() -> None:
             assert ("does not touch a base circle of" in refusal(tree)) == outside
 
 
-@pytest.mark.parametrize("ending", ["csv", "dxf"])
+@pytest.mark.parametrize("ending", tiers(["csv"], ["dxf"]))
 def test_the_outline_of_a_file_moves_the_follower_as_the_cam_does(tmp_path: Path, ending: str) -> None:
     """Within twice the tolerance."""
     m = da.mechanism(machine({"roller": "8 mm"}))
@@ -488,10 +489,11 @@ def test_sizes_of_a_cam_that_a_kernel_can_vary() -> None:
     assert "vary its base or its roller, or solve each design by da.sweep" in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    "profile", [{"eccentric": "12 mm", "radius": "40 mm"}, {"base": "40 mm", "segments": FULL}]
+@crossed(
+    "face, profile",
+    [None, "8 deg", "190 deg"],
+    [{"eccentric": "12 mm", "radius": "40 mm"}, {"base": "40 mm", "segments": FULL}],
 )
-@pytest.mark.parametrize("face", [None, "8 deg", "190 deg"])
 def test_the_direction_of_a_guide_varies_in_a_kernel_and_on_a_page(face: str | None, profile: Any) -> None:
     load = {"P": {"type": "force", "on": "stem", "at": "F", "value": [0, -300]}}
     tree = sliding("flat", profile, drive=dict(TURN), stem={"mass": 0.5}, loads=load)

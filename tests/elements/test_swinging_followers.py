@@ -11,6 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import dalembert as da
+from tests.tiers import tiers
 
 FILE = """units: {length: mm, force: N, mass: kg, time: s, angle: deg}
 links:
@@ -44,7 +45,7 @@ def lift(turn: float) -> tuple[float, float, float]:
     return height * (value if sign > 0 else 1 - value), sign * height * first, sign * height * second
 
 
-@pytest.mark.parametrize("follower", ["{roller: 10}", "flat", "knife"])
+@pytest.mark.parametrize("follower", tiers(["{roller: 10}"], ["flat", "knife"]))
 def test_a_lever_jumps_off_its_cam_and_lands(follower: str) -> None:
     m = da.loads(FILE.replace("FOLLOWER", follower))
     s = da.simulate(m, until="0.04 s")
@@ -124,7 +125,7 @@ start: {O: {position: 0, speed: 150 rad/s}}
 """
 
 
-@pytest.mark.parametrize("follower", ["flat", "knife"])
+@pytest.mark.parametrize("follower", tiers(["flat"], ["knife"]))
 def test_a_follower_that_rubs_leaves_its_cam_and_lands(follower: str) -> None:
     """On the cam the normal force and the friction by Newton and Euler on both links, off it freely."""
     mass, inertia, e, radius, mu = 1.2, 0.05, 0.012, 0.04, 0.15
@@ -180,7 +181,7 @@ def test_a_follower_that_rubs_leaves_its_cam_and_lands(follower: str) -> None:
     assert s.energy_residual < 1e-9
 
 
-@pytest.mark.parametrize("follower", ["flat", "knife"])
+@pytest.mark.parametrize("follower", tiers(["knife"], ["flat"]))
 def test_a_lever_that_rubs_and_stays_is_as_if_it_were_held(follower: str) -> None:
     text = FILE.replace("FOLLOWER", f"{follower}, friction: {{coefficient: 0.12}}")
     pushes = da.simulate(da.loads(text), until="0.004 s").result

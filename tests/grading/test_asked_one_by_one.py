@@ -30,6 +30,7 @@ def dialogue(
 FORM = " (a number, or with its unit; empty to skip): "
 
 
+@pytest.mark.long
 def test_in_space_a_force_is_three_numbers_in_brackets_or_not(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -255,7 +255,7 @@ def test_the_digits_written_decide_what_rounding_is_forgiven(value: Any, right: 
     assert verdict("reaction", "A", value).right is right
 
 
-@pytest.mark.parametrize("seed", tiers(range(6), range(6, 14), range(14, 30)))
+@pytest.mark.parametrize("seed", tiers(range(2), range(2, 14), range(14, 30)))
 def test_a_figure_rounded_to_three_digits_and_whole_degrees_is_right(seed: int) -> None:
     rng = np.random.default_rng(seed)
     m = da.four_bar().with_values({"drives.O2.position": float(rng.uniform(0, 6)), "loads.torque.value": 7.0})

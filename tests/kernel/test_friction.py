@@ -214,8 +214,11 @@ def test_derivatives_of_random_mechanisms(seed: int) -> None:
 @pytest.mark.parametrize(
     ("name", "mu"),
     [
-        *(("slider_crank", 0.3), ("toggle_press", 1.5)),
-        *(pytest.param("scotch_yoke", mu, marks=pytest.mark.long) for mu in (0.5, 0.9)),
+        ("slider_crank", 0.3),
+        *(
+            pytest.param(name, mu, marks=pytest.mark.long)
+            for name, mu in (("toggle_press", 1.5), ("scotch_yoke", 0.5), ("scotch_yoke", 0.9))
+        ),
     ],
 )
 def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:

@@ -74,7 +74,10 @@ def test_known_effort_and_unknown_load() -> None:
     )
 
 
-@pytest.mark.parametrize(("crank", "rocker", "angle"), [(0.1, 0.1, 0), (0.2, 0.2, 80), (0.25, 0.2, 80)])
+@pytest.mark.parametrize(
+    ("crank", "rocker", "angle"),
+    [(0.1, 0.1, 0), (0.2, 0.2, 80), pytest.param(0.25, 0.2, 80, marks=pytest.mark.long)],
+)
 def test_statuses(crank: float, rocker: float, angle: float) -> None:
     """A parallelogram at its change points, and linkages that do not close all round."""
     tree = copy.deepcopy(four_bar_tree(36))

@@ -15,6 +15,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.kernel.program import SLOW
 from dalembert.model.library import TEMPLATES
+from tests.tiers import tiers
 
 KEPT = Path(__file__).with_name("program_sizes.txt")
 PART = 0.02
@@ -65,7 +66,7 @@ def written(name: str) -> str:
     return f"{name}: " + ", ".join(f"{key} {n}" for key, n in counts(name).items())
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", tiers(NAMES[::2], NAMES[1::2]))
 def test_a_program_is_as_short_as_it_was(name: str) -> None:
     row = next(line for line in KEPT.read_text(encoding="utf-8").splitlines() if line.startswith(f"{name}: "))
     kept = {key: int(n) for key, n in (part.split() for part in row.partition(": ")[2].split(", "))}

@@ -14,7 +14,7 @@ import pytest
 import dalembert as da
 from dalembert.model import read_text
 from tests.random_mechanisms import Drawing, Rigid, mirrored, random_case, tree
-from tests.tiers import tiers
+from tests.tiers import crossed, tiers
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -303,8 +303,7 @@ LET_GO = {
 }
 
 
-@pytest.mark.parametrize("copy", ["mirror: 0", "mirror: 35", "phase: [0, 90]"])
-@pytest.mark.parametrize("drive", LET_GO)
+@crossed("drive, copy", LET_GO, ["mirror: 0", "mirror: 35", "phase: [0, 90]"])
 def test_a_copy_moves_under_forces_as_its_image(drive: str, copy: str) -> None:
     """Motors with their switches, brakes, stops of drives and joints, and the start."""
     how, _, angle = copy.partition(": ")

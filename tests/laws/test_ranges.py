@@ -193,7 +193,7 @@ def test_the_second_group_of_a_six_bar_closes_in_two_ranges(seed: int) -> None:
     assert np.abs(off)[r.ok].max() < 1e-6
 
 
-@over(1, 25, block=3)
+@over(0, 25, block=3)
 def test_an_rssr_closes_in_both_its_ranges(seed: int) -> None:
     """The end of the rocker is where its circle cuts the sphere about the crank's end."""
     rng, turn = np.random.default_rng(seed), 2 * pi * np.arange(72) / 72

@@ -283,7 +283,7 @@ def fine_cycle() -> da.Result:
     return da.dynamics(sized(), positions=2400)
 
 
-@pytest.mark.parametrize("count", tiers([12, 72], [24]))
+@pytest.mark.parametrize("count", tiers([12], [24, 72]))
 def test_what_half_of_the_positions_would_change_is_printed_and_no_less_than_the_error(count: int) -> None:
     """Against a cycle so fine that its error does not count; the rate of B, which swings, has kinks in PV."""
     m = sized()

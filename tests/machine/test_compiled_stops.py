@@ -115,6 +115,7 @@ def test_numbers_of_stops_vary_as_parameters() -> None:
         da.compile_motion(m, "4 s", ["drives.O.stops.to"])
 
 
+@pytest.mark.long
 def test_what_goes_on_from_rest_by_itself_is_simulated_alone() -> None:
     """A hammer that a rope lifts later from its anvil, and a piston that rests on the stop of a joint."""
     check(da.load(rigid.HAMMER), ["links.ram.mass"], ["effort.ram"], "2 s", [[80.0], [90.0]], most=2)

@@ -171,7 +171,7 @@ def test_wrong_stops_are_named_with_their_line(
     assert sentence in str(raised.value)
 
 
-@pytest.mark.parametrize("rough", ["", ", friction: {coefficient: 0.1, radius: 9 mm}"])
+@pytest.mark.parametrize("rough", tiers([""], [", friction: {coefficient: 0.1, radius: 9 mm}"]))
 def test_a_joint_without_a_drive_has_the_stop_that_a_load_by_its_slide_is(rough: str) -> None:
     """With every joint force, also beside dry friction, which the force of the stop changes."""
     crank = CRANK.replace("links: [crank, rod]", f"links: [crank, rod]{rough}")
@@ -204,7 +204,7 @@ def test_play_between_two_rotors_passes_on_their_momentum() -> None:
     assert da.simulate(rigid, "30 ms").speed("O")[-1] == pytest.approx(speeds[0], rel=1e-9)
 
 
-@pytest.mark.parametrize("seed", tiers([0, 2], [1, 3], range(4, 40)))
+@pytest.mark.parametrize("seed", tiers([0], [1, 2, 3], range(4, 40)))
 def test_random_stops_of_a_rocker_keep_the_laws_and_only_push(seed: int) -> None:
     """With dry friction in every second pair of seeds."""
     rng = np.random.default_rng(seed)
@@ -248,7 +248,7 @@ start: {O: {position: 60 deg, speed: SPEED rad/s}}
 """
 
 
-@pytest.mark.parametrize("speed", tiers([12], [-9]))
+@pytest.mark.parametrize("speed", tiers([], [12, -9]))
 def test_a_linkage_that_rubs_keeps_the_laws_on_its_stops(speed: int) -> None:
     s = da.simulate(da.loads(RUBBING.replace("SPEED", str(speed))), "1 s")
     assert [e for e in s.events if "meets" in e.sentence]

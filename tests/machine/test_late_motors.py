@@ -54,7 +54,7 @@ def test_its_torque_builds_up_while_a_brake_holds_it_and_decays_switched_off() -
     assert held.position("O")[-1] == 0
 
 
-@over(quick=1, whole=40)
+@over(quick=0, whole=40)
 def test_along_a_motion_it_follows_its_line(seed: int) -> None:
     """Of a crank with links on it, behind a gear with losses: T(t) = integral of (line - T)/tau, and, for a short time
     constant, nearly the motion without one, by a difference in proportion to it."""

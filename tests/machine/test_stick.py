@@ -232,6 +232,7 @@ assembly: {rod: -12}
 """
 
 
+@pytest.mark.long
 def test_contacts_that_slip_together_hold_while_the_range_of_the_effort_says_so() -> None:
     """Beside a rotor that turns freely four contacts decide; without it a slider-crank has one freedom, and its effort
     at rest a range. One contact after the other passes from one limit to the other before all slip."""

@@ -19,7 +19,9 @@ from tests.tiers import crossed, tiers
 
 MANY = "four_cylinder"
 """The one example of many links over many positions: its sheet takes as long as those of all others."""
-SHOWN = tiers([n for n in examples() if n != MANY] + list(cases())[::20], [MANY, *list(cases())[5::5]])
+SHOWN = tiers(
+    [*list(examples())[::3], *list(cases())[::40]], [MANY, *list(examples())[1::3], *list(cases())[5::5]]
+)
 SIGNS = [
     "é",
     "ß",

@@ -11,7 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.model.description import mechanism
 from tests.space.test_gears import TORQUE, Z, pair, wheel
-from tests.tiers import crossed
+from tests.tiers import crossed, tiers
 
 LEAD = 5e-3
 
@@ -95,7 +95,7 @@ def test_wheels_within_and_beside_each_other(at: float, internal: bool, says: st
         da.statics(m)
 
 
-@pytest.mark.parametrize("helix", [10.0, 20.0, 25.0, -20.0])
+@pytest.mark.parametrize("helix", tiers([10.0, -20.0], [20.0, 25.0]))
 def test_crossed_helical_wheels_up_to_steep_ones(helix: float) -> None:
     """omega_j / omega_i = r_i cos(b_i) / (r_j cos(b_j)) with b_i + b_j the angle of the axes; followed over turns."""
     shaft, beta = radians(60), radians(helix)

@@ -297,6 +297,7 @@ LIMIT = 0.3 + 0.25 - 0.1
 """Longest ground on which the template's crank turns: coupler and rocker less the crank."""
 
 
+@pytest.mark.long
 def test_designs_without_an_answer_say_why_and_how_they_differ(tmp_path: Path) -> None:
     """The shares by reason, the first one's sentence, and the bias stand in the text and on the page."""
     m = da.four_bar(crank=0.1, coupler=0.3, rocker=0.25, ground=0.35)

@@ -11,6 +11,7 @@ import dalembert as da
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.errors import ModelError
 from dalembert.studies import Study
+from tests.tiers import tiers
 
 MODEL = da.four_bar(positions=9)
 VARY = {"links.rocker.mass": "uniform ± 20 %", "links.ground.points.O4.0": "0.28..0.5 m"}
@@ -23,7 +24,7 @@ def study(reduce: str | None, **options: object) -> Study:
     return da.study(MODEL, VARY, outputs, reduce, **{"designs": 40, "seed": 3, "limits": limits, **options})
 
 
-@pytest.mark.parametrize("reduce", ["mean", None])
+@pytest.mark.parametrize("reduce", tiers(["mean"], [None]))
 def test_numbers_of_a_cycle_are_those_of_each_design_whatever_the_reduction(reduce: str | None) -> None:
     """A design that does not close at each position has none, and its status says so."""
     s = study(reduce) if reduce else study(None, limits={"range(angle.rocker)": ">= 47 deg"})

@@ -15,6 +15,7 @@ from dalembert.studies.motion_engines import SimulationEngine
 from dalembert.studies.output.study_text import summary
 from dalembert.studies.store import Store
 from dalembert.studies.study_file import load_study
+from tests.tiers import tiers
 
 MODEL = """
 units: {length: mm, angle: deg}
@@ -106,7 +107,7 @@ def test_what_a_motion_ends_with_is_not_reduced() -> None:
     assert every.to_xarray()["reaction.A.magnitude"].shape == (40, 201)
 
 
-@pytest.mark.parametrize("reduce", ["peak", None])
+@pytest.mark.parametrize("reduce", tiers([None], ["peak"]))
 def test_a_store_goes_on_with_the_same_bits(
     tmp_path: Path, reduce: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -67,6 +67,10 @@ PASSES = ("always_inliner", "instruction_combine", "reassociate", "new_gvn", "in
 """
 
 
+LEVEL = 3
+"""How far LLVM optimizes while it makes machine code: the numbers are the same at each level, 0 takes half the time."""
+
+
 @lru_cache(16)
 def compile_module(text: str, lanes: int) -> Machine:
     """Machine code of one module, cached for the latest modules. An engine takes ownership of its target machine and
@@ -77,7 +81,7 @@ def compile_module(text: str, lanes: int) -> Machine:
     target = llvm.Target.from_triple(module.triple).create_target_machine(
         cpu=llvm.get_host_cpu_name(),
         features=llvm.get_host_cpu_features().flatten(),
-        opt=3,
+        opt=LEVEL,
         codemodel="jitdefault",
     )
     module.data_layout = str(target.target_data)

@@ -16,6 +16,8 @@ LONGEST = 5.0
 NEARLY = 0.9
 """Part of the working speed that counts as reached."""
 INSTANTS, TOLERANCE = 101, 1e-8
+BEYOND = 1 + 1e-6
+"""The limit of the motion shown, over the time at which it ends: rounding does not choose which of both comes first."""
 
 
 def start_up_part(c: DesignContext) -> Iterator[DesignPart]:
@@ -36,7 +38,7 @@ def start_up_part(c: DesignContext) -> Iterator[DesignPart]:
     start = None if m.start else {drive: {"position": float(r.drive_position(drive)[0]), "speed": 0.0}}
     s = simulate(m, until, start, count=INSTANTS, tolerance=TOLERANCE)
     if s.time[-1] < LONGEST / 4:  # few of the instants are before its end
-        s = simulate(m, [float(s.time[-1]), *until[1:]], start, count=INSTANTS, tolerance=TOLERANCE)
+        s = simulate(m, [BEYOND * float(s.time[-1]), *until[1:]], start, count=INSTANTS, tolerance=TOLERANCE)
     part, kind = DesignPart("Start-up"), "angular_speed" if unit == "rad/s" else "speed"
     speed, time = c.text(kind, working), c.text("time", float(s.time[-1]))
     reached = abs(float(s.speed(drive)[-1])) >= working * (1 - 1e-6)

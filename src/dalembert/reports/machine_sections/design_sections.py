@@ -126,5 +126,5 @@ def simulation_section(sheet: ReportSheet, s: Simulation, shown: Shown) -> None:
     sheet.text(
         f"The speeds of {', '.join(s.drives)} follow from the applied efforts: the effort required by a state is "
         "the reduced inertia times the acceleration plus the effort required without acceleration. Between events this "
-        f"is integrated step by step (Dormand and Prince, order 8). It ends {say(s.ending, shown.scale)}."
+        f"is integrated step by step (Dormand and Prince, order 8). It ends: {say(s.ending, shown.scale)}."
     )
