@@ -111,6 +111,11 @@ def test_factors_between_units_are_whole_numbers_or_powers() -> None:
     assert f._with_factor("a b", 0.001) == "a b / 1000"
     assert f._with_factor("a b", 1000.0) == "a b cdot 1000"
     assert f._with_factor("a b", 0.25) == "a b / 4"
+    assert f._with_factor("a b", 1.5) == "a b cdot 1.500"
+    assert f._with_factor("a b", 1 + 2e-6) == "a b cdot 1.000"
+    assert f.factor("force", "mass", "acceleration") == pytest.approx(1e-3)
+    assert Figures(None, Notation()).factor("force", "mass", "acceleration") == 1.0
+    assert f.factor("moment", "force", "length") == 1.0
     assert f.with_factor("m a", "force", "mass", "acceleration") == "m a / 1000"
     assert f.arm_unit == "mm"
     assert Figures(Units(length="mm", force="N", derived=(("moment", "N*m"),)), Notation()).arm_unit == "m"
