@@ -13,10 +13,10 @@ from dalembert.analysis.methods.applied_forces import Action
 from dalembert.printing import number, range_text, round_components
 from dalembert.units import Units
 from dalembert.views.charts import _backwards, stepped_series
-from dalembert.views.notation import Figures, Notation
+from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.diagrams import Field, _closed_cycle, _missing, _reach, _ring, inner_ticks, ticks
-from dalembert.views.paper.frame import FINE, PaperFrame, force_scale, round_up
+from dalembert.views.paper.frame import FINE, PaperFrame, fit_frame, force_scale, round_up
 from dalembert.views.paper.scene import Arrow
 from dalembert.views.plane.circle_details import WINDOW, chord
 from dalembert.views.plane.force_polygons import (
@@ -133,6 +133,42 @@ def test_factors_between_units_are_whole_numbers_or_powers() -> None:
     assert Figures(None, Notation(torque=-1)).size("moment") == 1.0
 
 
+def shown(signs: dict[str, str], joints: dict[str, tuple[str, str]], loads: tuple[str, ...] = ()) -> Shown:
+    """Signs of the links, and joints between two of them each."""
+    s = Shown.__new__(Shown)
+    described = {name: SimpleNamespace(links=links) for name, links in joints.items()}
+    s.notation = Notation()
+    s.r = SimpleNamespace(
+        mechanism=SimpleNamespace(joints=described, loads=dict.fromkeys(loads)), joints=tuple(joints)
+    )  # type: ignore[assignment]
+    vars(s)["_signs"] = signs
+    return s
+
+
+def test_indices_of_forces_have_a_comma_between_long_signs_and_the_joint_where_two_are_alike() -> None:
+    s = shown(
+        {"a": "1", "b": "2", "c": "10"}, {"A": ("a", "b"), "B": ("b", "c"), "C": ("c", "b"), "D": ("a", "c")}
+    )
+    assert [s.pair(*two) for two in (("a", "b"), ("a", "c"), ("c", "a"), ("c", "c"))] == [
+        "12",
+        "1,10",
+        "10,1",
+        "10,10",
+    ]
+    assert [s.between("A", on) for on in ("b", "a")] == ["12", "21"]
+    assert [s.between("B", "c"), s.between("C", "c"), s.between("D", "c")] == ["2,10,B", "2,10,C", "1,10"]
+    assert shown({"a": "1", "b": "2"}, {"A": ("a", "b")}, ("F_12",)).between("A", "b") == "12,A"
+    assert shown({"a": "1", "b": "2"}, {"A": ("a", "b")}, ("M21",)).between("A", "b") == "12,A"
+    assert shown({"a": "1", "b": "2"}, {"A": ("a", "b")}, ("F_13",)).between("A", "b") == "12"
+    assert [s._part("F_{14}", part) for part in ("normal", "ahead", "")] == [
+        "N_{14}",
+        "F_{14,ahead}",
+        "F_{14}",
+    ]
+    assert s.heading("b") == "2 b"
+    assert shown({"2": "2"}, {}).heading("2") == "2"
+
+
 def test_a_printed_number_has_six_figures_or_as_many_as_its_integer() -> None:
     for value, text in (
         (999999.4, "999999"), (999999.6, "1e+06"), (-999999.4, "-999999"), (123456.7, "123457"), (NAN, "-"), (INF, "-"),
@@ -160,6 +196,8 @@ def test_a_printed_number_has_six_figures_or_as_many_as_its_integer() -> None:
         ((-2.99, -2.0), (-2.99, -2.0)),
         ((-3.0, -2.0), (-3.0, 0.0)),
         ((100.0, 101.02), (100.0, 101.02)),
+        ((100.0, 101.005), (0.0, 101.005)),
+        ((-101.005, -100.0), (-101.005, 0.0)),
         ((100.0, 101.0), (0.0, 101.0)),  # it hardly varies: by a hundredth of the further end
         ((-101.02, -100.0), (-101.02, -100.0)),
         ((-101.0, -100.0), (-101.0, 0.0)),
@@ -189,7 +227,8 @@ def test_ticks_cover_a_range_and_inner_ones_stay_within() -> None:
     assert ticks(0.0, 1440.0, 6, True) == [0, 360, 720, 1080, 1440]
     assert inner_ticks(1.0, 5.0, 4) == [1, 2, 3, 4, 5]
     assert inner_ticks(1 + 1e-10, 5 - 1e-10, 4) == [1, 2, 3, 4, 5]
-    assert inner_ticks(1.01, 4.99, 4) == [2, 3, 4]
+    assert inner_ticks(1.002, 4.998, 4) == [2, 3, 4]
+    assert ticks(0.9999, 2.0001) == [0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2]
 
 
 def test_a_field_has_room_around_a_single_value() -> None:
@@ -251,7 +290,10 @@ def test_scales_are_round_and_have_the_unit_of_the_reader() -> None:
     assert force_scale([72.0, NAN, INF], 36.0) == 2.0
     assert force_scale([73.0], 36.0) == 2.5
     assert force_scale([73.0], 36.0, 4.4482216) == pytest.approx(0.5 * 4.4482216)
+    assert force_scale([0.36], 36.0) == 0.01
     assert force_scale([0.0, NAN], 36.0, 3.0) == 3.0
+    assert fit_frame([(3.0, 10.0), (5.6, 11.0)], 100.0, 75.0) == PaperFrame(0.03, (4.3, 10.5))
+    assert fit_frame([(10.0, 3.0), (11.0, 5.6)], 100.0, 75.0) == PaperFrame(0.04, (10.5, 4.3))
     assert force_scale([], 36.0, 3.0) == 3.0
 
 
@@ -269,11 +311,11 @@ def test_forces_below_a_billionth_of_the_largest_are_none_and_joints_come_last()
 
 
 def test_a_polygon_runs_head_to_tail_and_shows_a_gap_from_a_tenth_of_a_millimetre_on() -> None:
-    shown = Figures(None, Notation())
+    units = Figures(None, Notation())
     for off, gap in ((0.0, False), (0.19, False), (0.21, True), (-0.19, False), (-0.21, True)):
         canvas = Canvas()
         forces = [act("A", 30, 0), act("B", 0, 40), act("C", -30 + off, -40)]
-        edges, size = draw_polygon(canvas, forces, 0, shown, 2.0, (5.0, 5.0))
+        edges, size = draw_polygon(canvas, forces, 0, units, 2.0, (5.0, 5.0))
         assert edges["A"] == ((5.0, 5.0), (20.0, 5.0))
         assert edges["B"] == ((20.0, 5.0), (20.0, 25.0))
         assert size == pytest.approx(abs(off))
@@ -281,7 +323,7 @@ def test_a_polygon_runs_head_to_tail_and_shows_a_gap_from_a_tenth_of_a_millimetr
         assert len(arrows) == 3 + gap
         assert not gap or arrows[-1].head == (5.0, 5.0)
     skipped = Canvas()
-    draw_polygon(skipped, [act("A", 30, 0), act("B", -30, 0)], 0, shown, 2.0, (0.0, 0.0), "A")
+    draw_polygon(skipped, [act("A", 30, 0), act("B", -30, 0)], 0, units, 2.0, (0.0, 0.0), "A")
     assert [i.head for i in skipped.items if isinstance(i, Arrow)] == [(0.0, 0.0)]
     assert _middle([], 0, 2.0, (5.0, 6.0)) == (5.0, 6.0)
     assert _middle([act("A", 30, 0), act("B", 0, 40)], 0, 2.0, (5.0, 5.0)) == (20.0, 15.0)

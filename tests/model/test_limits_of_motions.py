@@ -327,11 +327,13 @@ def test_a_full_turn_does_not_repeat_its_start(span: tuple[float, float], turns:
     assert len(steps) == 5
     assert steps[0] == start
     assert steps[-1] == pytest.approx(stop if end else start + (stop - start) * 4 / 5)
-    one = schedule({"O": Drive.model_validate({"position": {"from": start, "to": stop, "count": 1}})})
+    drive = Drive.model_validate({"position": 0.0})  # it turns
+    one, two = (
+        schedule({"O": drive.model_copy(update={"position": Range(start, stop, count)})}) for count in (1, 2)
+    )
     assert one.position.tolist() == [[start]]
-    two = schedule({"O": Drive.model_validate({"position": {"from": start, "to": stop, "count": 2}})})
-    assert two.position[:, 0].tolist()[0] == start
-    assert two.count == 2
+    if turns:
+        assert two.position[:, 0] == pytest.approx([start, start + (stop - start) / (1 if end else 2)])
 
 
 def moving(position: Any, speed: Any, acceleration: Any = 0.0, **more: Any) -> Schedule:
