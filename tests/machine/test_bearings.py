@@ -16,6 +16,8 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
+from dalembert.machine.bearings.bearing_load import BearingLoad
+from dalembert.machine.bearings.compiled_life import life_expression
 from dalembert.printing import number
 from tests.machine.cranks import crank_machine
 from tests.tiers import over, tiers
@@ -371,7 +373,31 @@ def test_the_smallest_that_is_enough_is_chosen(tmp_path: Path, capsys: pytest.Ca
     assert "none is enough" in capsys.readouterr().out
 
 
-def test_two_links_that_turn_alike_have_no_life_to_count() -> None:
+@pytest.mark.parametrize(
+    ("rate", "swings", "mean"),
+    [
+        ([0.0, 2.0, 4.0], False, 2.0),
+        ([0.0, -2.0, -4.0], False, 2.0),
+        ([0.0, 0.0, 0.0], False, 0.0),
+        ([0.5, 1.0, 1.0], False, 0.875),
+        ([-1e-9, 0.0, 4.0], True, 1.0),
+        ([-4.0, 2.0, 0.0], True, 2.0),
+    ],
+)
+def test_a_bearing_swings_if_it_turns_one_way_and_the_other(
+    rate: list[float], swings: bool, mean: float
+) -> None:
+    """A place at which it stands still is no turning back; each position counts for its time."""
+    still, time = np.zeros(3), np.array([1.0, 2.0, 1.0])
+    unknown: Any = None
+    b = BearingLoad(unknown, "A", None, np.ones(3), still, still, np.array(rate), time)
+    assert b.swings is swings
+    assert b.speed == pytest.approx(mean, abs=1e-8)
+    assert np.isnan(b.equivalent) if mean == 0 else b.equivalent == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("speed", [30, -30])
+def test_two_links_that_turn_alike_have_no_life_to_count(speed: float) -> None:
     """The pins of a triangle of links turn about nothing: rounding is no rate, and gives no life of 10^20 hours."""
     m = da.loads(
         """
@@ -389,8 +415,10 @@ drives: {O: {position: {from: 0, to: 360, count: 12}, speed: 30 rad/s}}
 assembly: {b: 60, c: 20}
 """
     )
-    t = da.bearings(da.dynamics(m))
+    r = da.dynamics(m.with_values({"drives.O.speed": speed}))
+    t = da.bearings(r)
     assert (t.loads["A"].rate == 0).all()
+    assert life_expression(r, "A") == ""
     assert t.loads["A"].hours == math.inf
     assert not t.loads["A"].swings
     assert t.loads["O"].speed == pytest.approx(30)
@@ -466,6 +494,8 @@ def test_a_bearing_without_rating_or_size_has_its_line(bearing: str, said: str, 
     ("old", "new", "said"),
     [
         ("7.8, 3.55", "-7.8, 3.55", r"b\.csv:2: C is not positive; give a positive number"),
+        ("7.8, 3.55", "0, 3.55", r"b\.csv:2: C is not positive; give a positive number"),
+        ("6.55, 20", "6.55, 0", r"b\.csv:4: d is not positive; give a positive number"),
         ("3.55, 15", "3.55", r"b\.csv:2: 3 columns where the first row has 4"),
         ("14,", "much,", r"b\.csv:3: 'much' in column 'C' is not a finite number"),
         ("d [mm]", "D [mm]", r"b\.csv:1: the column 'd' is not in its head"),

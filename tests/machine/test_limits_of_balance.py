@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,8 +11,12 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.machine.balance.cone_programme import ConeSolution
+from dalembert.machine.balance.counterweights import counterweights
+from dalembert.machine.balance.mass_columns import mass_columns
 from dalembert.machine.balance.rotors import RotorBalance
 from dalembert.machine.motion.energies import DOUBT, MotionChecks
+from tests.machine.test_engines import shaft_with_masses
 
 UNKNOWN: Any = None
 
@@ -135,3 +141,106 @@ def test_a_motion_is_in_doubt_beyond_the_limit_of_its_checks(
     found = doubt.fget(checks)
     assert found.startswith(said)
     assert bool(found) is bool(said)
+
+
+def test_the_gap_of_a_programme_is_relative_to_1_or_to_the_size_of_its_value() -> None:
+    """Whichever of both is the greater, and of whichever sign."""
+    for primal, dual, gap in (
+        (-5, -4, 0.2),
+        (-5, -6, 0.2),
+        (5, 4, 0.2),
+        (0.5, 0.25, 0.25),
+        (-0.5, -0.25, 0.25),
+    ):
+        for sign in (1.0, -1.0):
+            assert ConeSolution(np.zeros(1), sign * primal, sign * dual, 0.0).gap == pytest.approx(gap)
+
+
+CRANK = da.slider_crank(crank=0.05, rod=0.2).with_values(
+    {"links.crank.mass": 6.0, "links.crank.center": (0.04, 0.0)}
+)
+
+
+@pytest.mark.parametrize(
+    ("bounds", "mass"),
+    [
+        ({"mass": 0.5}, 0.5),
+        ({"mass": 2.0, "moment": 0.05}, 1.0),
+        ({"mass": 0.5, "moment": 0.05}, 0.5),
+    ],
+)
+def test_a_counterweight_at_a_place_is_as_heavy_as_mass_and_moment_allow(bounds: Any, mass: float) -> None:
+    """50 mm behind the axis of a crank of 6 kg that leans out by 40 mm: it would have to be 4.8 kg at least."""
+    b = da.balance(CRANK, {"crank": {"place": (-0.05, 0.0), **bounds}}, positions=12)
+    assert b.placed["crank"].mass == pytest.approx(mass, abs=1e-7)
+    assert b.placed["crank"].moment == pytest.approx(0.05 * mass, abs=1e-8)
+    assert b.residual < 1e-9
+
+
+def test_what_needs_no_counterweight_has_none_of_any_number() -> None:
+    m = CRANK.with_values({"links.crank.center": (0.0, 0.0), "links.rod.mass": 0.0, "links.piston.mass": 0.0})
+    b = da.balance(m, {"crank": {"radius": 0.1, "mass": 5}}, positions=12)
+    assert not b.numbers.any()
+    assert (b.placed["crank"].mass, b.placed["crank"].moment, b.residual) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("direction", [0, 180])
+@pytest.mark.parametrize("crank", [0.0, math.pi])
+def test_a_mass_on_a_piston_has_the_force_of_its_acceleration_at_any_single_place(
+    crank: float, direction: int
+) -> None:
+    """-(1 +- r / l) r w^2 in line, for the unit mass; no torque there; and half-way m v a / w."""
+    text = INCLINED % (0.3, -0.1, math.radians(direction), math.radians(direction), 0, 0)
+    way = math.cos(math.radians(direction))
+    text = text.replace("piston: [0, 0, 0]", f"piston: [{0.3 + 0.24 * way}, -0.1, 0]")
+    for turned in (crank, crank + 1.0, crank - 1.0):
+        place = f"position: {turned + math.radians(direction)!r}"
+        r = da.dynamics(da.loads(re.sub(r"position: {.*?}", place, text)))
+        columns = mass_columns(r, counterweights(r.mechanism, ["piston"]), np.zeros(3), "O").of
+        v, a = (rate[0] * np.array([way, 0.0]) for rate in r.freedom("S", "slide")[1:])
+        force = columns["force"].reshape(2, -1)[:, 0]
+        assert force == pytest.approx(-a, abs=1e-9)
+        assert columns["torque"].ravel()[0] == pytest.approx((v @ a + v[1] * 9.80665) / 40, abs=1e-9)
+        if turned == crank:
+            assert a[0] == pytest.approx(-way * 0.05 * 1600 * (math.cos(crank) + 0.25), rel=1e-9)
+
+
+@pytest.mark.parametrize("axis", [1, -1])
+def test_a_rotor_turns_about_its_axis_either_way(axis: int) -> None:
+    """Two masses at 200 and 700 mm of 900: each plane takes its share by the lever, and at the same angles."""
+    text = shaft_with_masses((2, 50, 30, 200), (3, 40, 140, 700)).replace(
+        "axis: [0, 0, 1], p", f"axis: [0, 0, {axis}], p"
+    )
+    b = da.balance_rotor(da.loads(text), (0.1 * axis, 0.8 * axis), (0.05, 0.05))
+    u = np.array([0.1 * np.exp(1j * np.radians(30 * axis)), 0.12 * np.exp(1j * np.radians(140 * axis))])
+    near, far = u @ [6 / 7, 1 / 7], u @ [1 / 7, 6 / 7]
+    assert b.zero == "x"
+    assert b.moment == pytest.approx(np.abs([near, far]), rel=1e-9)
+    assert np.exp(1j * b.angle) == pytest.approx(-np.array([near, far]) / np.abs([near, far]), rel=1e-9)
+    assert b.residual < 1e-12
+
+
+@pytest.mark.parametrize("axis", [1, -1])
+def test_a_link_that_stands_still_is_no_part_of_a_rotor(axis: int) -> None:
+    text = shaft_with_masses((2, 50, 30, 200)).replace("axis: [0, 0, 1], p", f"axis: [0, 0, {axis}], p")
+    text = text.replace(
+        "joints:\n",
+        "  still: {points: {S: [0, 0, 0]}, mass: 1}\njoints:\n  still: {type: weld, links: [ground, still], at: S}\n",
+    )
+    with pytest.raises(da.ModelError, match="still does not turn with shaft"):
+        da.balance_rotor(da.loads(text), (0.1, 0.8), (0.05, 0.05))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_gap_of_an_energy_balance_is_a_part_of_the_largest_energy(sign: float) -> None:
+    """Gained 0, 3 and lost 2; work 0, 4 of -8 and of 12: 3 too much of 12."""
+    kinetic, potential = np.array([1.0, 1.0, 4.0]), sign * np.array([5.0, 5.0, 3.0])
+    works = {"F": sign * np.array([0.0, 2.0, -8.0]), "G": np.array([0.0, -2.0 * sign, 12.0 * sign])}
+    checks = SimpleNamespace(_energies=(kinetic, potential), works=works, kinetic=kinetic)
+    balance: Any = MotionChecks.energy_residual
+    left = abs((3 - 2 * sign) - sign * 4)
+    assert balance.func(checks) == pytest.approx(left / 12)
+    still = SimpleNamespace(
+        _energies=(np.zeros(2), np.zeros(2)), works={"F": np.zeros(2)}, kinetic=np.zeros(2)
+    )
+    assert balance.func(still) == 0.0

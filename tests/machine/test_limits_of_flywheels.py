@@ -11,7 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.machine.flywheel.legendre_panels import Panels, _may_vanish, _roots, _turns, resolve
 from dalembert.machine.flywheel.turning_moment import TurningMoment
-from dalembert.machine.harmonics import EVEN, whole_turns
+from dalembert.machine.harmonics import EVEN, harmonics, whole_turns
 
 SHAFT = """
 links:
@@ -74,6 +74,7 @@ def test_the_floor_is_a_part_of_the_largest_of_forces_moments_and_efforts() -> N
         ([0.0, 2.0, 1.0, 1.5, 1.0], 0.5, [0, 1]),  # what returns by no more than the floor has not turned
         ([0.0, 2.0, 1.0, 1.5, 1.0], 0.6, [0, 1]),
         ([2.0, 1.0, 1.5, 0.0], 0.4, [0, 1, 2, 3]),
+        ([2.0, 0.0, 0.0, 1.0], 0.5, [0, 1]),  # the first of equal ones
         ([1.0, 1.0, 1.0], 0.0, []),
         ([1.0, 0.0], 0.999, [0, 1]),
         ([1.0, 0.0], 1.0, []),
@@ -88,7 +89,8 @@ def test_values_over_a_period_turn_where_they_change_by_more_than_the_floor(
 
 def test_roots_at_the_ends_of_a_panel_count_and_others_do_not() -> None:
     line = np.array([[0.5, 1.0], [-1.0, 1.0], [1.0, 1.0], [1.001, 1.0], [0.0, 0.0], [0.0, 1.0], [0.3, -1.0]])
-    assert _may_vanish(line.T).tolist() == [0, 1, 2, 5, 6]
+    assert _may_vanish(line.T).tolist() == _may_vanish(-line.T).tolist() == [0, 1, 2, 5, 6]
+    assert [_roots(-c).tolist() for c in line if c.any()] == [_roots(c).tolist() for c in line if c.any()]
     roots = [_roots(c).tolist() for c in line if c.any()]
     assert [len(x) for x in roots] == [1, 1, 1, 0, 1, 1]
     assert np.concatenate(roots) == pytest.approx([-0.5, 1.0, -1.0, 0.0, 0.3], abs=1e-15)
@@ -110,10 +112,34 @@ def test_a_curve_is_followed_in_as_many_pieces_as_it_needs() -> None:
     assert panels.mean(values) == pytest.approx(1 / 3 - 4 / 3, abs=1e-12)
     assert (np.diff(panels.low) > 0).all()
     assert panels.width.sum() == pytest.approx(1.0, rel=1e-15)
+    for below in (lambda x: -2 - np.exp(5 * x), lambda x: 1 - np.exp(5 * x)):
+        above = resolve(lambda x, below=below: -below(x), edges)
+        assert resolve(below, edges)[0].low.tolist() == above[0].low.tolist()
     small = resolve(lambda x: np.sin(40 * x), edges, floor=2.0)
     assert len(small[0].low) == 1  # all of it is below the floor
     with pytest.raises(da.AnalysisError, match="over 10000 pieces do not resolve it"):
         resolve(lambda x: np.where(np.floor(x * 1e7) % 2 < 1, 1.0, -1.0), edges)
+
+
+@pytest.mark.parametrize("orders", [[0, 1], [1.0], 1])
+def test_three_positions_are_a_period_of_one_harmonic(orders: Any) -> None:
+    """Of one turn orders are integers, of two they come in halves; what halving the positions changes has no sign."""
+    q = np.arange(3) * 2 * math.pi / 3
+    found = harmonics(2 + np.cos(q - 0.3), q, orders)
+    assert found.amplitude[-1] == pytest.approx(1.0)
+    assert math.isnan(found.aliasing)
+    for order, said in ((0.5, "a period of 1 turn has no harmonic .* its orders are integers"),):
+        with pytest.raises(da.ModelError, match=said):
+            harmonics(np.cos(q), q, [order])
+    with pytest.raises(da.ModelError, match=r"a period of 2 turns has no .* its orders are multiples of 1/2"):
+        harmonics(np.ones(8), np.arange(8) * math.pi / 2, [1 / 3])
+    with pytest.raises(da.ModelError, match=r"order 2 needs more than 4 positions, and there are 4"):
+        harmonics(np.ones(4), np.arange(4) * math.pi / 2, [2])
+    fine = np.arange(12) * math.pi / 6
+    for sign in (1.0, -1.0):  # seen at every other position the fourth is the second
+        found = harmonics(sign * (np.cos(2 * fine) + 0.25 * np.cos(4 * fine)), fine, [2])
+        assert found.cosine == pytest.approx([sign])
+        assert found.aliasing == pytest.approx(0.25)
 
 
 def test_the_extremes_of_a_curve_are_between_its_points_or_at_its_ends() -> None:
