@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from dalembert.core.friction import unpowered_loads
 from dalembert.core.friction.holding_range import (
     UNLOADED,
     _exact,
@@ -111,3 +112,76 @@ def test_friction_reverses_a_power_that_is_more_than_rounding(sense: float) -> N
     ):  # fmt: skip
         x, y = np.array([7.0, with_friction]), np.array([7.0, bare])
         assert bool(power_reversed(layout, unknown, twist, w, x, y)) is reverses, bare
+
+
+NAN2 = (math.nan, math.nan)
+
+
+@pytest.mark.parametrize(
+    ("found", "loads", "solved"),
+    [
+        # by start: the loads where Newton ends; the first that all push forward, else the first at all
+        ([(1.0, -2.0), (1.0, 2.0), (3.0, 4.0)], (1.0, 2.0), True),
+        ([(-1.0, -1.0), (0.0, 2.0), (3.0, 4.0)], (0.0, 2.0), True),
+        ([(3.0, 4.0), (1.0, 2.0)], (3.0, 4.0), True),
+        ([(-1.0, 2.0), (-3.0, 4.0)], (-1.0, 2.0), True),
+        ([None, None, (0.5, 0.25)], (0.5, 0.25), True),
+        ([None, (-1.0, 2.0), None, (5.0, 6.0)], (5.0, 6.0), True),
+        ([], NAN2, False),
+    ],
+)
+def test_of_several_solutions_the_first_whose_loads_all_push_is_taken(
+    found: list[tuple[float, float] | None],
+    loads: tuple[float, float],
+    solved: bool,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """At two positions at once: the second has the same starts the other way round."""
+    starts: list[Any] = []
+    both = [found + [None] * (8 - len(found)), [None] + found + [None] * (7 - len(found))]
+
+    def newton(p: Any, u: Any) -> Any:
+        here = [one[len(starts)] if len(starts) < 8 else None for one in both]
+        starts.append(u.tolist())
+        arrived = np.array([x is not None for x in here])
+        least = np.where(arrived, 1.0 + len(starts), 0.0)
+        return (
+            np.array([NAN2 if x is None else x for x in here]),
+            arrived,
+            least,
+            ~arrived & (len(starts) % 2 == 1),
+        )
+
+    monkeypatch.setattr(unpowered_loads, "_loaded", lambda *given: None)
+    monkeypatch.setattr(unpowered_loads, "_size", lambda p, w: np.array([[7.0, 9.0]] * len(w)))
+    monkeypatch.setattr(unpowered_loads, "_arranged", lambda p, u: u)
+    monkeypatch.setattr(unpowered_loads, "_newton", newton)
+    nothing: Any = None
+    out = unpowered_loads.solve_unpowered(*(nothing,) * 6, np.zeros((2, 1, 3)), nothing, nothing)
+    far = unpowered_loads.STARTS[0]
+    assert starts[0] == [[7 * far, 9 * far]] * 2
+    assert starts[3] == [[-7 * far, -9 * far]] * 2
+    assert len(starts) == 4 * len(unpowered_loads.STARTS)
+    assert np.array_equal(out[1], [loads, loads], equal_nan=True)
+    assert out[3].tolist() == [solved, solved]
+    if solved:
+        assert out[2][0] == 2.0 + found.index(loads)
+        assert out[2][1] == 3.0 + found.index(loads)
+
+
+def test_where_every_start_jams_the_loads_are_those_of_the_first_sizes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def newton(p: Any, u: Any) -> Any:
+        return np.full((2, 1), math.nan), np.zeros(2, bool), np.zeros(2), np.array([True, bool(u[0, 0] > 0)])
+
+    monkeypatch.setattr(unpowered_loads, "_loaded", lambda *given: None)
+    monkeypatch.setattr(unpowered_loads, "_size", lambda p, w: np.array([[7.0], [9.0]]))
+    monkeypatch.setattr(unpowered_loads, "_arranged", lambda p, u: u)
+    monkeypatch.setattr(unpowered_loads, "_newton", newton)
+    nothing: Any = None
+    out = unpowered_loads.solve_unpowered(*(nothing,) * 6, np.zeros((2, 1, 3)), nothing, nothing)
+    assert out[1][0].tolist() == [7.0]
+    assert np.isnan(out[1][1]).all()
+    assert out[2].tolist() == [1.0, 0.0]
+    assert out[4].tolist() == [True, False]

@@ -79,7 +79,8 @@ def test_a_peak_between_positions_is_that_of_a_parabola(sign: float) -> None:
     # 4, 5, 3: vertex (4 - 3) / (2 (4 - 10 + 3)) = -1/6, that is 4 - 1/6 behind
     assert reduce_positions("refined_place", first, True) == pytest.approx([4 - 1 / 6])
     assert reduce_positions("refined_peak", first, True) == pytest.approx([5 + 1 / 24])
-    assert np.isnan(reduce_positions("refined_peak", np.array([[1.0], [NAN], [0.5]]))).all()
+    for word in ("refined_peak", "refined_place"):
+        assert np.isnan(reduce_positions(word, np.array([[1.0], [NAN], [0.5]]))).all()
     flat = sign * np.full((4, 1), 2.0)
     assert reduce_positions("refined_peak", flat).tolist() == [2.0]
     assert reduce_positions("refined_place", flat, True).tolist() == [0.0]
@@ -88,12 +89,15 @@ def test_a_peak_between_positions_is_that_of_a_parabola(sign: float) -> None:
 def test_a_parabola_turns_at_most_half_a_step_away() -> None:
     for values, place in (
         ([1.0, 5.0, 5.0], 0.5), ([5.0, 5.0, 1.0], -0.5), ([1.0, 5.0, 1.0], 0.0), ([1.0, 2.0, 9.0], -0.5),
+        ([9.0, 2.0, 1.0], 0.5),
         ([-1.0, -5.0, -3.0], 1 / 6), ([2.0, 2.0, 2.0], 0.0), ([1.0, 2.0, 3.0], 0.0), ([NAN, 2.0, 3.0], 0.0),
     ):  # fmt: skip
         found = parabola(np.array(values), np.array(True))
         assert float(found.place) == pytest.approx(place)
         assert float(found.weights.sum()) == pytest.approx(1.0)
-        assert float(parabola(np.array(values), np.array(False)).place) == 0.0
+        ends = parabola(np.array(values), np.array(False))
+        assert float(ends.place) == 0.0
+        assert ends.place_slope.tolist() == [0.0, 0.0, 0.0]
     values, h = np.array([1.0, 5.0, 2.0]), 1e-6
     found = parabola(values, np.array(True))
     for k in range(3):
@@ -129,6 +133,9 @@ def test_a_cycle_leads_from_its_last_position_to_its_first(positions: Any, turns
     both = np.stack([positions, 0 * positions], axis=-1)
     assert is_cycle(both, [turns, False]) is cycle
     assert is_cycle(np.stack([positions, np.arange(len(positions))], axis=-1), [turns, False]) is False
+    if len(positions) > 2:
+        with pytest.raises(ModelError, match="not evenly spaced"):
+            is_cycle(np.stack([positions, np.arange(len(positions)) ** 2], axis=-1), [turns, False])
 
 
 @pytest.mark.parametrize(("off", "even"), [(0.9e-6, True), (1.2e-6, False), (-1.2e-6, False)])
@@ -158,6 +165,7 @@ def test_both_sides_of_a_reversal_count() -> None:
         larger_side([before, -before], [before, -before]).tolist() == before.tolist()
     )  # of equal ones the first
     assert larger_side([before], [before]) is before
+    assert larger_side([after, -after - 1], [after, -after - 1]).tolist() == [[-2.0], [-4.0]]
     rates = np.stack([before[..., None] * 10, after[..., None] * 10])
     assert larger_side([before, after], list(rates)).tolist() == [[[10.0]], [[30.0]]]
 
@@ -165,6 +173,9 @@ def test_both_sides_of_a_reversal_count() -> None:
 def test_words_of_a_cycle_and_their_slopes_are_those_of_differences() -> None:
     rng = np.random.default_rng(2)
     values, rates, h = rng.normal(size=(5, 3)), rng.normal(size=(5, 3, 2)), 1e-6
+    values[:, 1] = [4.0, 3.0, 9.0, -2.0, -1.0]
+    values[:, 2] = [-4.0, -3.0, -2.0, -9.0, 1.0]
+    rates[1] = 0.0
     for word in ("peak", "mean", "rms", "squares", "norm8", "least", "greatest", "range", "final"):
         found = cycle_slope(word, values, rates)
         for k in range(2):
@@ -179,5 +190,10 @@ def test_words_of_a_cycle_and_their_slopes_are_those_of_differences() -> None:
     known = {"least": -4.0, "greatest": 2.0, "range": 6.0, "final": 1.0, "peak": 4.0}
     assert {w: float(reduce_cycle(w, VALUES[:, 0])) for w in known} == known
     assert float(reduce_cycle("range", np.array(3.0))) == 0.0
+    for sign, word in ((1.0, "least"), (-1.0, "greatest")):
+        all_above = sign * np.array([[3.0], [1.0], [2.0]])
+        assert cycle_slope(word, all_above, np.arange(3.0)[:, None, None]).tolist() == [[1.0]]
+    two = [np.zeros((2, 3)), np.ones((2, 3))]
+    assert finish_reduction("envelope", two, 5).shape == (2, 3, 2)
     still = slope("rms", np.zeros((4, 1)), np.zeros((4, 1, 2)))
     assert still.tolist() == [[0.0, 0.0]]
