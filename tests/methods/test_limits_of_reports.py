@@ -133,13 +133,15 @@ def test_what_is_rounding_has_no_term() -> None:
             couple = ActionVector(s, action((0, 0), 0, on, "load"), np.zeros(2), np.array([2 * sign * size]))
             assert couple.turned is counts
             assert bool(couple.moment(2)) is counts
+    for size, counts in ((0.9e-9, False), (1.1e-9, True)):
+        for sign in (1.0, -1.0):
             aside = ActionVector(
                 s,
                 action((0.0, 4.0), 0, on + np.array([sign * size, 0.0]), "load"),
                 np.array([0.0, 4.0]),
                 np.zeros(1),
             )
-            assert bool(aside.moment(2)) is counts or size == 1e-9
+            assert bool(aside.moment(2)) is counts
     joint = ActionVector(s, action((0, 0), 0, on + 1.0), np.zeros(2), np.zeros(1))
     assert [len(joint.force(0)), len(joint.force(1)), len(joint.moment(2))] == [1, 1, 2]
     space = setting(3)
