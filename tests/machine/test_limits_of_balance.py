@@ -177,6 +177,21 @@ def test_a_counterweight_at_a_place_is_as_heavy_as_mass_and_moment_allow(bounds:
     assert b.residual < 1e-9
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize(
+    ("low", "high", "found"), [(0.0, 0.1, 0.1), (-0.02, 0.1, 0.1), (-0.1, 0.02, 0.02), (0.05, 0.1, 0.1)]
+)
+def test_the_moment_of_a_counterweight_ends_at_its_range(
+    low: float, high: float, found: float, side: float
+) -> None:
+    """A crank of 6 kg leans out by 40 mm, on either side: more than 0.1 kg m would be good against it."""
+    m = CRANK.with_values({"links.crank.center": (-0.04 * side, 0.0)})
+    span = (low, high) if side > 0 else (-high, -low)
+    b = da.balance(m, {"crank": {"x": span}}, positions=12)
+    p = b.placed["crank"]
+    assert p.mass * p.center == pytest.approx([found * side, 0.0], abs=1e-7)
+
+
 def test_what_needs_no_counterweight_has_none_of_any_number() -> None:
     m = CRANK.with_values({"links.crank.center": (0.0, 0.0), "links.rod.mass": 0.0, "links.piston.mass": 0.0})
     b = da.balance(m, {"crank": {"radius": 0.1, "mass": 5}}, positions=12)
