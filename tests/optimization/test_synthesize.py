@@ -181,6 +181,8 @@ def test_free_timing_begins_where_a_design_comes_nearest_either_way_round(
     stations = timing.samples.stations
     assert stations[0] == ends[0]
     assert (stations[-1] == ends[1]) is not turned
+    pitch = sense * 2 * np.pi / 72 if turned else (ends[1] - ends[0]) / 71
+    assert np.diff(stations) == pytest.approx(np.full(71, pitch))
     x = timing.begin(np.array([[0.5]]))
     pitch = abs(stations[1] - stations[0])
     met = timing.places(x[0])[:, 0]
