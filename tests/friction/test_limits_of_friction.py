@@ -118,9 +118,14 @@ def test_friction_that_presses_its_own_contact_jams_from_a_coefficient_on(mu: fl
             assert s.x == pytest.approx(1 + mu * s.z * np.ones((1, 2)))
             assert s.determinant == pytest.approx([1 - sense * mu])
             assert s.single[0] == (mu < 1)
+            assert s.locked.tolist() == [False]
         else:
             assert s.critical == pytest.approx([1 / mu], abs=2e-9)
             assert np.isnan(s.z).all()
+    one = contacts(1, coefficient=[1.0])
+    bound = solve_friction(one, r, SlipState(np.array([[-1.0]]), np.array([[False]]), np.array([[-1.0]])))
+    assert bound.z == pytest.approx(np.array([[size / 2]]))
+    assert bound.single.tolist() == [False]  # at 1 nothing is proved
     rest = solve_friction(c, r, SlipState(np.array([[1.0]]), np.array([[True]]), np.zeros((1, 1))))
     assert rest.critical == pytest.approx([1 / 3], abs=2e-9)
 
@@ -175,7 +180,7 @@ def test_the_bound_of_a_positive_matrix_is_its_largest_sum_where_all_sums_are_eq
     assert largest <= spectral_bound(contacts(2), response(np.ones((1, 3, 2)), h))[0] <= 1.01 * largest
     nothing = spectral_bound(contacts(2), response(np.ones((1, 3, 2)), 0 * h))
     assert nothing[0] < 1e-100
-    h[0] = [np.diag([-3.0, 3.0]), np.diag([4.0, 4.0]), np.diag([12.0, 4.0])]
+    h[0] = [np.diag([-3.0, -3.0]), np.diag([4.0, 4.0]), np.diag([12.0, 4.0])]
     for keys, bound in (
         ({}, 12.0),
         ({"ball": [True, True]}, 13.0),

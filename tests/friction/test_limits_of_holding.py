@@ -40,10 +40,45 @@ def test_a_contact_without_load_may_change_sides(size: float, sign: float) -> No
         known = _slopes(rest(y, h, [1, 1]), np.zeros((1, 2)), None)[0]
         assert known[:, 0] == pytest.approx([sign, 0.0, 0.0])
         assert known[0, 1] == pytest.approx(math.copysign(1.0, part) if loaded else 1.0)
+        assert known[1:, 1].tolist() == [0.0, 0.0]
         for side in (1.0, -1.0):
             before = np.array([[[1.0, side], [0.0, 0.0], [0.0, 0.0]]])
             again = _slopes(rest(y, h, [1, 1]), np.zeros((1, 2)), before)[0]
             assert again[0, 1] == pytest.approx(math.copysign(1.0, part) if loaded else -side)
+
+
+def test_faces_of_a_guide_follow_the_friction_in_it() -> None:
+    """4 N in the guide and a couple of -2 on its faces, by the strengths: what the guide rubs, the faces rub half of
+    it, the other way; without a strength nothing, and where the guide is not loaded by the couple alone."""
+    faces: dict[str, Any] = {"signed": [False, True], "leader": [0, 0]}
+    h = np.zeros((1, 3, 2, 2))
+    sides = np.array([[[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]]])
+    r = rest([[[4.0, -2.0], [0, 0], [0, 0]]], h, [1.0, 1.0], **faces)
+    for guide, found in ((4.0, -0.5), (8.0, -0.25), (0.0, -2.0)):
+        loaded = rest([[[guide, -2.0], [0, 0], [0, 0]]], h, [1.0, 1.0], **faces)
+        assert _limits(loaded, np.zeros((1, 2)), sides)[0].tolist() == [[[1.0], [found]]]
+    without = rest([[[4.0, -2.0], [0, 0], [0, 0]]], h, [1.0, 0.0], **faces)
+    assert _limits(without, np.zeros((1, 2)), sides)[0].tolist() == [[[1.0], [0.0]]]
+    alone = rest([[[4.0, 2.0], [0, 0], [0, 0]]], h, [1.0, 1.0])._replace(active=np.array([0]))
+    assert _limits(alone, np.zeros((1, 2)), sides)[0].tolist() == [[[1.0], [0.0]]]
+    ways = [
+        ((1.0, 9.0), (1.0, -0.5)),
+        ((-1.0, 9.0), (-1.0, 0.5)),
+        ((9.0, 9.0), (4.0, -2.0)),
+        ((0.0, 1.0), (0.0, 0.0)),
+    ]
+    for t, exact in ways:
+        assert _exact(r, np.array([t])) == pytest.approx(np.array([exact]))
+    free = rest([[[0.0, -2.0], [0, 0], [0, 0]]], h, [1.0, 1.0], **faces)
+    assert _exact(free, np.array([[1.0, 9.0]])) == pytest.approx(np.zeros((1, 2)))
+    before = np.array([[[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]]])
+    assert _slopes(r, np.zeros((1, 2)), before)[0][0] == pytest.approx([1.0, 1.0])
+
+
+@pytest.mark.parametrize(("count", "starts"), [(1, 2), (16, 32), (17, 0)])
+def test_the_search_starts_from_each_contact_up_to_sixteen(count: int, starts: int) -> None:
+    some = rest(np.zeros((1, 3, count)), np.zeros((1, 3, count, count)), np.ones(count))
+    assert _outward(some).shape == (starts, count)
 
 
 def test_limits_of_a_change_are_what_the_linear_bearing_force_leaves() -> None:
@@ -86,6 +121,15 @@ def test_an_effort_follows_each_contact_where_the_others_change_it_less(k: float
         r = rest([[[4.0, 4.0], [0, 0], [0, 0]]], h, [1.0, 1.0])
         for gains in ([[[1.0, 1.0]]], [[[-1.0, 1.0]]]):
             assert _monotonic(r, np.array(gains)).tolist() == [proved]
+    h[0, 0] = [[0.0, 0.3], [0.3, 0.0]]  # gains 1 and 0.1: the second follows the first
+    assert _monotonic(
+        rest([[[4.0, 4.0], [0, 0], [0, 0]]], h, [1.0, 1.0]), np.array([[[1.0, 0.1]]])
+    ).tolist() == [False]
+    h[0, 0] = [[1.5, 0.0], [0.0, 0.0]]  # the first one presses itself too much
+    assert _monotonic(
+        rest([[[4.0, 4.0], [0, 0], [0, 0]]], h, [1.0, 1.0]), np.array([[[1.0, 1.0]]])
+    ).tolist() == [False]
+    h[0, 0] = k * np.array([[0.0, 1.0], [1.0, 0.0]])
     without = rest([[[4.0, 4.0], [0, 0], [0, 0]]], h, [1.0, 0.0])._replace(active=np.array([0]))
     assert _monotonic(without, np.array([[[1.0, 1.0]]])).tolist() == [True]
 
