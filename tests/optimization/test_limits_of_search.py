@@ -14,7 +14,7 @@ import dalembert as da
 from dalembert.optimization import polishing
 from dalembert.optimization.least_squares import BETWEEN, Errors, TargetErrors, least_squares, wanted
 from dalembert.optimization.optimizers import DEFAULT, OPEN, polish_by
-from dalembert.optimization.optimizing import problem_of
+from dalembert.optimization.optimizing import is_alike, problem_of
 from dalembert.optimization.pareto_front import Front, _undominated
 from dalembert.optimization.polishing import _Design
 from dalembert.optimization.side_by_side import _direction, _update
@@ -69,6 +69,50 @@ def test_of_equals_by_one_aim_a_front_has_the_better_by_the_other() -> None:
     assert _undominated(values) == [0, 2, 4, 6]
     assert _undominated(values[::-1]) == [6, 4, 2, 0]
     assert _undominated(values[:1]) == [0]
+
+
+def test_a_front_does_not_go_by_the_sign_of_its_aims() -> None:
+    """A sum of an aim and a constant has the same designs, but for those that differ by rounding."""
+    values = np.array(
+        [[1.0, -1.0], [2.0, -1.0], [3.0, -1.0 - 0.9e-6], [4.0, -1.0 - 1.1e-6], [5.0, -3.0], [6.0, -2.0]]
+    )
+    assert _undominated(values) == [0, 3, 4]
+    for first in (0.0, -10.0):
+        for second in (2.0, 0.0, -10.0):
+            rows = [(1.0, 5.0), (2.0, 5.0), (3.0, 4.0), (4.0, 4.5), (5.0, 4.0)]
+            assert _undominated(np.array([(a + first, b + second) for a, b in rows])) == [0, 2]
+
+
+@pytest.mark.parametrize(
+    ("one", "best", "alike"),
+    [
+        ((0.0, 2.0), (0.0, 2.0), True),
+        ((0.0, 2.0019), (0.0, 2.0), True),
+        ((0.0, 2.0021), (0.0, 2.0), False),
+        ((0.0, -2.0), (0.0, -2.0), True),
+        ((0.0, -1.9981), (0.0, -2.0), True),
+        ((0.0, -1.9979), (0.0, -2.0), False),
+        ((0.0, 0.0), (0.0, 0.0), True),
+        ((0.0, 1e-9), (0.0, 0.0), False),
+        ((1e-9, 2.0), (0.0, 2.0), False),
+        ((0.5, 1.0), (0.0, 2.0), False),
+        ((0.0, np.nan), (0.0, 2.0), False),
+    ],
+)
+def test_designs_within_a_thousandth_of_the_best_are_as_good(one: Any, best: Any, alike: bool) -> None:
+    assert is_alike(one, best) is alike
+
+
+def test_starts_that_end_in_the_best_design_count_though_the_aim_is_negative() -> None:
+    """cos 100 x + 5 x is least where sin 100 x = 1/20, first at 31 mm, and by 0.31 more a turn further on."""
+    x = "links.crank.points.A.0"
+    aim = f"mean (cos(100*{x}) + 5*{x})"
+    o = da.optimize(da.four_bar(positions=2), {x: (0.02, 0.11)}, aim, starts=6, static=True)
+    best = (np.pi - np.arcsin(0.05)) / 100
+    assert o.values == pytest.approx([best], abs=1e-6)
+    assert o.value == pytest.approx(np.cos(100 * best) + 5 * best, rel=1e-9)
+    assert 1 <= o.found < o.polished
+    assert o.words.startswith(f"{o.found} of the ")
 
 
 def errors_of(schedule: Any, ok: Any = None) -> tuple[TargetErrors, list[Any]]:

@@ -213,8 +213,14 @@ def _best(
     ends += [_stepped(p, u, steps) for u in places[order]]
     judged = [judge(p, u) for u in ends]
     best = min(range(len(ends)), key=lambda k: judged[k])
-    alike = [j for j in judged[: len(order)] if j[0] <= 0 and j[1] <= judged[best][1] * (1 + SAME)]
+    alike = [j for j in judged[: len(order)] if is_alike(j, judged[best])]
     return optimum_of(p, ends[best], varied, judged[best][0] <= 0, len(alike), len(order), len(started))
+
+
+def is_alike(one: tuple[float, float], best: tuple[float, float]) -> bool:
+    """Whether a design keeps every condition and is as good as the best one, of whichever sign the aim is; both by
+    `judge`."""
+    return one[0] <= 0 and one[1] <= best[1] + SAME * abs(best[1])
 
 
 def starts_of(p: DesignProblem, count: int, seed: int) -> Array:

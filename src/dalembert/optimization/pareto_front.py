@@ -208,6 +208,6 @@ def _undominated(values: Array) -> list[int]:
     """Non-dominated rows, in the order of the first column."""
     out = list[int]()
     for k in np.lexsort((values[:, 1], values[:, 0])).tolist():
-        if not out or values[k, 1] < values[out[-1], 1] * (1 - AS_GOOD):
+        if not out or values[k, 1] < values[out[-1], 1] - AS_GOOD * abs(values[out[-1], 1]):
             out.append(k)
     return out
