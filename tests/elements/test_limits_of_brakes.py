@@ -104,9 +104,9 @@ def test_no_body_has_an_inertia_above_the_sum_of_the_others() -> None:
 
 
 def flow(sources: dict[str, list[float]], links: dict[str, list[float]], **more: Any) -> PowerFlow:
-    numbers = [
-        {n: np.array(v) for n, v in some.items()} for some in (sources, more.get("through", {}), links, {})
-    ]
+    """Powers of sources and links, with those through joints and meshes."""
+    every = (sources, more.get("through", {}), links, more.get("meshes", {}))
+    numbers = [{n: np.array(v) for n, v in some.items()} for some in every]
     count = len(next(iter(sources.values())))
     return PowerFlow(SimpleNamespace(status=("ok",) * count), *numbers)  # type: ignore[arg-type]
 
@@ -122,6 +122,8 @@ def test_power_goes_round_where_a_link_carries_more_than_is_put_in() -> None:
     assert f.lost.tolist() == [2.0, 0.0, 0.0]
     assert f.circulating.tolist() == [0.0, 30.0, 0.0]
     assert f.rolling.tolist() == [0.0, 0.0, 0.0]
+    teeth = flow({"motor": [100.0]}, {"a": [100.0]}, meshes={"g": [40.0], "h": [70.0]})
+    assert teeth.rolling.tolist() == [70.0]
     over = flow({"motor": [100.0]}, {"a": [100 * (1 + 1.1e-9)]})
     assert over.circulating == pytest.approx([1.1e-7])
     assert pytest.approx(1e-9) == MORE - 1
