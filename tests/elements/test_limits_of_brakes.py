@@ -92,6 +92,13 @@ def test_a_lining_lies_where_it_can_press(keys: dict[str, Any], fits: bool) -> N
             shoe(**keys)
 
 
+def test_a_pinned_lining_that_is_too_long_is_told_at_the_end_that_is_beyond() -> None:
+    for begin, end, key in ((-1e-6, 1.0, "from"), (0.0, PI + 1e-6, "to"), (0.5, PI + 1e-6, "to")):
+        with pytest.raises(ModelError, match="presses from 0 to 180 deg") as said:
+            shoe(**{"from": begin, "to": end})
+        assert said.value.path[-1] == key
+
+
 def test_no_body_has_an_inertia_above_the_sum_of_the_others() -> None:
     for off, bad in ((0.0, False), (0.9 * ROUNDED, False), (1.2 * ROUNDED, True)):
         high = 3.0 / (1 - off)

@@ -346,10 +346,10 @@ def test_curves_that_do_not_change_are_not_drawn() -> None:
     axis: Any = SimpleNamespace(chart=lambda kind, curves, title, words: (kind, list(curves), title, words))
     curves = {
         "a": np.array([-2.0, -2.0]), "b": np.array([0.0, 1.9e-9]), "c": np.array([0.0, -2.1e-9]), "d": np.full(2, NAN),
-        "e": np.array([NAN, 1.0]),
+        "e": np.array([NAN, 0.0, 1.0]),
     }  # fmt: skip
     assert list(_chart(axis, "angular_speed", curves, "links", 1)) == [
-        ("angular_speed", ["c"], "Speed of the links", "angular speed")
+        ("angular_speed", ["c", "e"], "Speed of the links", "angular speed")
     ]
     many = {str(n): np.array([0.0, 1.0]) for n in range(8)}
     assert [len(c[1]) for c in _chart(axis, "length", many, "slides", 0)] == [6, 2]  # type: ignore[index]
