@@ -75,6 +75,7 @@ def test_its_functions_exist() -> None:
     assert [f"{file}: {name}" for name, file in named if name not in defined(PACKAGE / file)] == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("route", range(6))
 def test_its_calls_take_its_routes(route: int, entered: list[list[tuple[str, str]]]) -> None:
     rank = {pair: k for k, pair in enumerate(entered[route])}

@@ -35,6 +35,7 @@ from tests.tiers import tiers
 TEXTS = Path(__file__).with_name("texts")
 ROUNDING = re.compile(
     r"\b\d(?:\.\d+)?e[-−][1-9]\d{1,2}(?!\d)|(?<=within )0(?![\d.])"
+    r"|(?<=energy balance holds within )\S+"
     r"|(?<=Date)[ ]+\d{4}-\d\d-\d\d|[\d.]+ s of core time"
     r"|Out-of-balance force.*?(?=\n\n|\Z)",
     re.M | re.S,

@@ -406,6 +406,7 @@ def test_accelerations_that_jump_have_two_numbers() -> None:
     assert "Jump of the acceleration in F at 0 deg, 90 deg" in r.text()
 
 
+@pytest.mark.long
 def test_a_groove_pushes_with_one_wall_and_conjugate_discs_with_both() -> None:
     """m s'' w^2 / cos(phi) changes its sign half-way; both discs differ by it while their preload keeps them on."""
     tree = machine({"roller": "8 mm"})

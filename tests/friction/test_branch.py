@@ -126,7 +126,7 @@ def followed(y: Array, h: Array, sense: Array) -> tuple[Array | None, float]:
         (3, 0.0, 1.0, 2, [7, 29, 10, 9, 128]),
         (2, 1.0, 3.0, 3, [155, 64, 91, 134]),
         (3, 1.0, 1.0, 4, [56, 80, 21]),
-        (3, 3.0, 1.0, 5, [55, 158, 51, 33, 131, 49]),
+        pytest.param(3, 3.0, 1.0, 5, [55, 158, 51, 33, 131, 49], marks=pytest.mark.long),
     ],
 )
 def test_the_branch_is_that_of_its_exact_pieces(

@@ -102,7 +102,7 @@ def test_links_balance(seed: int) -> None:
     )
 
 
-@over(6, 200)
+@over(3, 200)
 def test_the_oracle_follows_the_same_branch(seed: int) -> None:
     seed = nth(seed, begins)
     tree, drawing = rough_tree(seed), random_mechanism(seed, (2, 12))

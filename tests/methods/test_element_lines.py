@@ -231,7 +231,7 @@ loads: {S: {type: force, on: stem, at: F, value: [0, -60]}}
 """
 
 
-@pytest.mark.parametrize(("speed", "holds"), [(20, True), (90, False)])
+@pytest.mark.parametrize(("speed", "holds"), [(20, True), pytest.param(90, False, marks=pytest.mark.long)])
 def test_a_flat_tappet_is_judged_by_its_curvature_and_its_least_force(speed: int, holds: bool) -> None:
     """No undercut where base, lift and its second derivative by the turn are positive together: s is cycloidal."""
     r = da.solve(da.loads(TAPPET.replace("SPEED", str(speed))))

@@ -68,6 +68,7 @@ def test_most_plane_files_need_one_unknown_at_a_time() -> None:
     assert (single >= 83, others) == (True, ["truss", "vw-07-lazy-tongs-between-two-hinges"])
 
 
+@pytest.mark.long
 def test_friction_teeth_and_space_too() -> None:
     rough = [
         s for n in FILES if (s := solved(n)) and (s.result.friction is not None or s.mechanism.dimension == 3)

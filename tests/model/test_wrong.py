@@ -10,6 +10,7 @@ import pytest
 from dalembert.errors import ModelError
 from dalembert.model import ModelErrors, load, loads, read_file
 from tests.model.parts import FOUR_BAR
+from tests.tiers import crossed
 
 WRONG: dict[str, list[dict[str, Any]]] = read_file(Path(__file__).parent / "wrong.yaml")[0]
 CASES = [
@@ -197,8 +198,7 @@ NESTED = {
 }
 
 
-@pytest.mark.parametrize("form", ["yaml", "json", "toml"])
-@pytest.mark.parametrize("name", NESTED)
+@crossed("name, form", NESTED, ["yaml", "json", "toml"])
 def test_a_hostile_text_is_refused(name: str, form: str) -> None:
     with pytest.raises(ModelError):
         loads(NESTED[name], form)

@@ -134,7 +134,7 @@ def arm_turns(seed: int) -> bool:
     return bool(name) and len(d.joints) == 1
 
 
-@over(12, 80)
+@over(6, 80)
 def test_turns_are_not_reduced(seed: int) -> None:
     """The freedom follows its drive through whole turns, a screw advances with them, a spring winds up."""
     d, name = turning_arm(nth(seed, arm_turns))
