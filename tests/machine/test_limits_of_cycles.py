@@ -11,7 +11,9 @@ import pytest
 
 import dalembert as da
 from dalembert.machine.motors.motor_choice import MotorChoice
+from dalembert.machine.motors.motor_use import motor_use
 from dalembert.machine.whole_cycle import _beyond, halves, sampled, sampling
+from dalembert.model.drives.motors import MotorCurve
 from tests.machine.test_motors import ARM
 
 UNKNOWN: Any = None
@@ -103,6 +105,51 @@ def test_what_a_motor_holds_at_rest_passes_its_gear_as_what_it_lifts() -> None:
     c = MotorChoice(UNKNOWN, "O", effort, speed, still, still + 1, still + 1, efficiency=0.5)
     assert c.torque(2.0) == pytest.approx([8, 8, 2, -8, -8, -2])
     assert c.least_rms() is None
+
+
+@pytest.mark.parametrize(("part", "enough"), [(1 - 1e-9, False), (1.0, True), (1 + 1e-9, True)])
+def test_a_motor_may_have_just_the_torque_that_is_needed(part: float, enough: bool) -> None:
+    """6 N m at most, by its curve, and sqrt(20) rms, by its rating; bare, it has no inertia and loses nothing."""
+    effort, one = np.array([2.0, -6.0, 2.0, -6.0]), np.ones(4)
+
+    def need(torque: float = 6.0, rated: float | None = None) -> Any:
+        curve = MotorCurve((0.0, 3.0), (torque, torque))
+        return MotorChoice(UNKNOWN, "O", effort, one, one, one, one, curve=curve, rated=rated).need(1.0)
+
+    assert need(6 * part).enough is enough
+    assert need(rated=math.sqrt(20) * part).enough is enough
+    assert need(6 * 0.9, math.sqrt(20) * 2).enough is False
+    bare = MotorChoice(UNKNOWN, "O", effort, one, one, one, one)
+    assert bare.torque(2.0).tolist() == [1.0, -3.0, 1.0, -3.0]
+    assert (bare.need(2.0).enough, bare.least_rms()) == (None, None)
+
+
+def test_a_motor_turns_as_fast_as_its_curve_goes() -> None:
+    effort, speed, one = np.ones(3), np.array([1.5, -2.0, 0.0]), np.ones(3)
+    c = MotorChoice(
+        UNKNOWN, "O", effort, speed, one, one, one, curve=MotorCurve((0.0, 2.0, 4.0), (9.0, 7.0, 1.0))
+    )
+    assert c.allowed(1.0).tolist() == [7.5, 7.0, 9.0]
+    assert c.allowed(2.0).tolist() == [4.0, 1.0, 9.0]
+    assert np.isnan(c.allowed(2.0 + 1e-9)).tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("speed", [1.0, -1.0, 2.0, 1e-9])
+@pytest.mark.parametrize("effort", [3.0, -3.0])
+def test_the_sense_of_a_gears_power_is_that_of_its_speed_and_at_rest_that_of_its_start(
+    speed: float, effort: float
+) -> None:
+    motor = MotorCurve((0.0, 9.0), (8.0, 0.0), True, ratio=2.0, efficiency=0.5, inertia=0.25)
+    for v, a in ((speed, speed), (speed, -speed), (0.0, speed)):
+        use = motor_use(motor, *(np.array([x]) for x in (effort, v, a)))
+        way = effort * (v or a) > 0
+        shaft = effort / 2 * (2 if way else 0.5)
+        assert use.gear_torque == pytest.approx([shaft])
+        assert use.torque == pytest.approx([shaft + 0.25 * 2 * a])
+        assert use.speed == pytest.approx([2 * v])
+        assert use.loss == pytest.approx([shaft * 2 * v - effort * v])
+        assert use.loss[0] >= 0
+        assert use.power == pytest.approx(use.torque * 2 * v)
 
 
 @pytest.mark.parametrize("static", [False, True])
