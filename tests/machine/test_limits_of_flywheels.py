@@ -10,6 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.machine.flywheel.legendre_panels import Panels, _may_vanish, _roots, _turns, resolve
+from dalembert.machine.flywheel.speed_fluctuation import _with_mean_speed, speed_fluctuation
 from dalembert.machine.flywheel.turning_moment import TurningMoment
 from dalembert.machine.harmonics import EVEN, harmonics, whole_turns
 
@@ -192,3 +193,39 @@ def test_a_rim_may_just_reach_its_axis() -> None:
         size.rim(density, radius, breadth=breadth)
     with pytest.raises(da.ModelError, match="beyond its axis"):
         size.rim(density, radius, height=height)
+
+
+@pytest.mark.parametrize("beyond", [1e-3, 0.2, 1e3])
+@pytest.mark.parametrize(("inertia", "swing"), [(2.0, 5.0), (0.3, -5.0), (40.0, 0.02)])
+def test_the_speed_has_its_mean_over_time_however_near_to_rest(
+    beyond: float, inertia: float, swing: float
+) -> None:
+    """sqrt(2 (E + A sin q) / I) with E a little beyond |A|; the mean speed is the way over its time, by quadrature."""
+    energy = abs(swing) * (1 + beyond)
+
+    def speed(q: Any) -> Any:
+        return np.sqrt(2 * (energy + swing * np.sin(q)) / inertia)
+
+    edges = np.linspace(0, 2 * np.pi, 9)
+    panels, values = resolve(lambda q: 1 / speed(q), edges)
+    mean = 1 / panels.mean(values)
+    found = _with_mean_speed(panels, np.full(values.shape, inertia), swing * np.sin(panels.points), mean)
+    assert found == pytest.approx(speed(panels.points), rel=1e-6)
+
+
+def test_a_speed_whose_energy_only_grows_is_found_too() -> None:
+    """Where nothing is below its start; and one that does not change is the mean itself."""
+    panels, values = resolve(lambda q: 1 / np.sqrt(9 + q), np.linspace(0, 2 * np.pi, 9))
+    mean = 1 / panels.mean(values)
+    found = _with_mean_speed(panels, np.full(values.shape, 2.0), panels.points, mean)
+    assert found == pytest.approx(np.sqrt(9 + panels.points), rel=1e-9)
+    still = _with_mean_speed(panels, np.full(values.shape, 2.0), 0 * panels.points, 0.25)
+    assert still == pytest.approx(np.full(values.shape, 0.25), rel=1e-12)
+
+
+def test_a_machine_of_no_inertia_anywhere_has_no_speed() -> None:
+    t = TurningMoment(shaft("5 + cos(O)"))
+    panels, values = resolve(t.steady, t.edges, t.floor)
+    with pytest.raises(da.AnalysisError, match="nothing in this machine has inertia"):
+        speed_fluctuation(t, panels, 0 * values, 0.0)
+    assert speed_fluctuation(t, panels, 0 * values + 2, 0.0).fluctuation > 0
