@@ -199,7 +199,7 @@ def test_a_second_derivative_jumps_from_a_millionth_of_the_largest_on() -> None:
         grown = [
             piece(0.0, c3=size),
             piece(1.0, c2=size * (3 + 4.5e-6), c3=size),
-            piece(2.0, c2=6 * size, c3=-size),
+            piece(2.0, c2=6 * size),
         ]
         assert with_jumps(np.array(grown, float))[:2, -1].tolist() == [1.0, 0.0]
     rows = np.array([piece(0.0, c2=1.0), piece(1.0, c2=1.0, c3=0.0), piece(2.0, c2=2.0)], float)

@@ -287,7 +287,7 @@ def test_scales_are_round_and_have_the_unit_of_the_reader() -> None:
     assert round_up(2 * (1 + 0.9e-12)) == 2.0
     assert round_up(2 * (1 + 2e-12)) == 2.5
     assert round_up(1000 * (1 - 1e-13)) == 1000.0
-    assert force_scale([72.0, NAN, INF], 36.0) == 2.0
+    assert force_scale([3.0, 72.0, NAN, INF, 1.0], 36.0) == 2.0
     assert force_scale([73.0], 36.0) == 2.5
     assert force_scale([73.0], 36.0, 4.4482216) == pytest.approx(0.5 * 4.4482216)
     assert force_scale([0.36], 36.0) == 0.01

@@ -137,6 +137,7 @@ def test_the_first_of_equal_peaks_is_named() -> None:
     assert CurvePiece(2.0, (0.0, 1.0, -1.0)).extremes(0) == [0.5]
     assert CurvePiece(0.5, (0.0, 1.0, -1.0)).extremes(0) == []  # at its end, not within
     assert CurvePiece(0.5, (3.0,)).extremes(0) == []
+    assert CurvePiece(1.0, (0.0, 1.0, -1.0, 1.0)).extremes(0) == []  # slope 1 - 2 u + 3 u^2 is never 0
 
 
 @pytest.mark.parametrize(
@@ -234,6 +235,15 @@ def test_a_speed_may_differ_by_a_millionth_where_segments_join(off: float, fits:
         else:
             with pytest.raises(ModelError, match=r"the speed jumps from .* at 1 s"):
                 _ = p.curve
+
+
+@pytest.mark.parametrize("speed", [2.0, -2.0])
+def test_a_speed_that_begins_or_ends_at_rest_jumps(speed: float) -> None:
+    moves, rests = constant(1.0, NAN, speed), Segment("dwell", length=1.0)
+    for segments in ((moves, rests), (rests, moves)):
+        with pytest.raises(ModelError, match=r"the speed jumps from .* at 1 s"):
+            _ = Programme(segments).curve
+    assert Programme((rests, rests)).curve.duration == 2.0
 
 
 def test_a_law_that_is_periodic_ends_where_it_begins() -> None:
@@ -371,6 +381,14 @@ def test_a_machine_moves_where_a_drive_has_a_speed_or_only_turns_back() -> None:
         assert moving([1.0, 2.0, 1.0], speed, acceleration).moves.tolist() == moves
     both = moving([[1.0, 2.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 3.0]])
     assert both.moves.tolist() == [False, True]
+    turning = moving(
+        [[1.0, 2.0, 1.0], [0.0] * 3], [[1.0, 0.0, -1.0], [0.0] * 3], [[0.0, -1.0, 0.0], [0.0] * 3]
+    )
+    assert turning.moves.tolist() == [True, True, True]  # one of the drives turns back
+    law = {"segments": [{"to": 1.0, "in": 2, "by": "parabolic"}], "count": 3}
+    jump = schedule({"O": Drive.model_validate({"law": law}), "S": Drive.model_validate({"position": 0.2})})
+    assert jump.acceleration == pytest.approx(np.array([[1.0, 0.0], [1.0, 0.0], [-1.0, 0.0]]))
+    assert jump.just_after.acceleration == pytest.approx(np.array([[1.0, 0.0], [-1.0, 0.0], [-1.0, 0.0]]))
     after = moving([1.0, 2.0], 1.0, [0.0, 2.0], after=np.array([[0.0], [3.0]]))
     assert after.jumps.tolist() == [[False], [True]]
     assert after.just_after.acceleration.tolist() == [[0.0], [3.0]]
@@ -385,7 +403,7 @@ def test_positions_by_number_step_a_lone_turn_and_by_list_are_taken_as_they_are(
     assert schedule(turn, 1).position.tolist() == [[0.5]]
     assert schedule(turn, [1.0, 3.0]).position.tolist() == [[1.0], [3.0]]
     assert schedule(turn, [[1.0], [3.0]]).position.tolist() == [[1.0], [3.0]]
-    for wrong in (0, -1, [], [[1.0, 2.0]], [math.inf], True, 2.0):
+    for wrong in (0, -1, [], [[1.0, 2.0]], [math.inf], [1.0, math.nan], True, 2.0):
         with pytest.raises(ModelError):
             schedule(turn, wrong)  # type: ignore[arg-type]
     two = {"O": turn["O"], "S": Drive.model_validate({"position": 0.2})}
