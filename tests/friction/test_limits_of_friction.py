@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
+import dalembert as da
 from dalembert.analysis.friction.self_help import _coefficient
 from dalembert.core.equilibrium import LinkMotions
 from dalembert.core.friction.capstan import capstan
@@ -128,6 +129,55 @@ def test_friction_that_presses_its_own_contact_jams_from_a_coefficient_on(mu: fl
     assert bound.single.tolist() == [False]  # at 1 nothing is proved
     rest = solve_friction(c, r, SlipState(np.array([[1.0]]), np.array([[True]]), np.zeros((1, 1))))
     assert rest.critical == pytest.approx([1 / 3], abs=2e-9)
+
+
+WEDGE = """
+links:
+  ground: {points: {O: [0, 0]}}
+  up: {points: {A: [0, 0]}}
+  rod: {points: {A: [0, 0], B: [1.4142135623730951, 0]}}
+  side: {points: {B: [0, 0]}}
+joints:
+  V: {type: slider, links: [ground, up], at: [O, A], direction: 90}
+  A: {type: pin, links: [up, rod]}
+  B: {type: pin, links: [rod, side]}
+  H: {type: slider, links: [ground, side], at: [O, B], direction: 0, friction: {coefficient: MU}}
+drives: {V: {position: [1.0], speed: -1}}
+loads: {F: {type: force, on: side, at: B, value: [-3, 0]}}
+assembly: {rod: -45}
+"""
+
+
+@pytest.mark.parametrize(
+    ("mu", "jams"),
+    [(0.5, False), (1 - 1e-6, False), (1 - 1e-8, False), (1 - 1e-11, True), (1.0, True), (1.2, True)],
+)
+def test_beside_the_coefficient_that_jams_no_huge_force_is_answered(mu: float, jams: bool) -> None:
+    """A rod at 45 deg pushes a block: F / (1 - mu); at 1 rounding alone would decide what comes out."""
+    m = da.loads(WEDGE.replace("MU", repr(mu)))
+    kernel = da.compile(m, ["joints.H.friction.coefficient"], ["effort.V"])([[mu], [0.25]])
+    for r in (da.statics(m), da.statics(m, method="careful")):
+        assert r.status == (("jammed",) if jams else ("ok",))
+        assert tuple(kernel.status[0]) == r.status
+        for effort in (r.effort("V"), kernel["effort.V"][0]):
+            expected = math.nan if jams else -3 / (1 - mu)
+            assert effort == pytest.approx([expected], rel=1e-15 / (1 - mu) if mu < 1 else 0, nan_ok=True)
+    assert kernel["effort.V"][1] == pytest.approx([-4])
+
+
+def test_forces_that_grow_in_many_stages_are_answered() -> None:
+    """Ten contacts, each pressed by the one before and by itself with 0.9: 10^10 in all, nearly all digits are left."""
+    count = 10
+    h = np.zeros((1, 3, count, count))
+    h[0, 0] = -np.eye(count) - np.eye(count, k=-1)
+    y = np.zeros((1, 3, count))
+    y[0, 0, 0] = 1.0
+    c = contacts(count, coefficient=[0.9] * count)
+    s = solve_friction(
+        c, response(y, h), SlipState(np.ones((1, count)), np.zeros((1, count), bool), np.ones((1, count)))
+    )
+    assert s.determinant == pytest.approx([1e-10])
+    assert s.z[0] == pytest.approx([-10.0 * 9.0**k for k in range(count)], rel=1e-12)
 
 
 def test_without_friction_the_separation_of_teeth_stays() -> None:

@@ -36,6 +36,7 @@ from dalembert.core.friction.contact_equations import (
     under,
     with_strength,
 )
+from dalembert.core.friction.friction_solver import LOST
 from dalembert.core.friction.losses import dry_wrenches, power_reversed, viscous_wrenches
 from dalembert.core.friction.reversal import crossing
 from dalembert.core.layout import ConstraintRows, Layout, Pose
@@ -255,7 +256,7 @@ def _contraction(graph: Graph, bound: Array, sense: Array) -> tuple[Node, Node]:
     for _ in range(POWER):
         reached = (bound @ (moves * reached)[:, None])[:, 0]
         bounds.append(reached)
-    short, long = (1.0 - trace_array(graph, top(bounds[k], 1)).item() for k in (0, -1))
+    short, long = (1.0 - 2 / LOST - trace_array(graph, top(bounds[k], 1)).item() for k in (0, -1))
     return short, long
 
 

@@ -55,6 +55,13 @@ SMALLEST = 1e-10
 """Step of the friction scale below which the branch has ended."""
 
 
+LOST = 1e9
+"""Growth of rounding in friction's equations at which the branch has ended: beside it the forces grow without bound."""
+
+WEAK = 0.1
+"""Determinant ratio from which rounding grows little."""
+
+
 class FrictionSolution(NamedTuple):
     """Friction in one state of the contacts: z (P, E), c (P, E), the multipliers x (P, X), and the outcome.
 
@@ -107,8 +114,27 @@ def solve_friction(contacts: Contacts, r: ContactResponse, state: SlipState) -> 
         z[rest], determinant[rest] = part.z, part.determinant
         critical[rest] = np.where(part.arrived, np.nan, scale)
         z[rest[~part.arrived]] = np.nan
+    weak = np.flatnonzero((determinant < WEAK) & np.isfinite(z).all(axis=-1))
+    if weak.size:
+        ended = weak[_growth(contacts, at(r, weak), sense[weak], c[weak], z[weak]) > LOST]
+        critical[ended], z[ended] = 1.0, np.nan
     x, locked = multiplier(r, c * z), np.zeros(len(sense), bool)
     return FrictionSolution(state, z, c, x, determinant, critical, single, locked)
+
+
+def _growth(contacts: Contacts, r: ContactResponse, sense: Array, c: Array, z: Array) -> Array:
+    """How many times rounding of the terms grows in the forces z (Skeel, 1979); infinite where they are singular."""
+    r = with_strength(r, c)
+    y = argument(r, z)
+    equations = jacobian(r, slope(contacts, y, _largest(y))[0], sense)
+    unit = np.eye(sense.shape[-1])
+    singular = np.linalg.det(equations) == 0
+    inverse = np.linalg.inv(np.where(singular[:, None, None], unit, equations))
+    size = np.abs(z)
+    terms = np.abs(inverse) @ (np.abs(equations - unit) + unit) @ size[..., None]
+    largest = size.max(axis=-1, initial=0.0)
+    grown = terms[..., 0].max(axis=-1, initial=0.0) / np.where(largest > 0, largest, 1.0)
+    return np.where(singular, np.inf, grown)
 
 
 def roots(contacts: Contacts, r: ContactResponse, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
