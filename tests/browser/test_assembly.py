@@ -129,6 +129,7 @@ def test_a_range_behind_a_gap_in_space_more_than_half_a_turn_away(opened: Any) -
     assert not set(range(26, 31)) & set(good.tolist())
 
 
+@pytest.mark.long
 def test_a_range_behind_a_gap_that_is_reached_by_its_branch_alone(opened: Any) -> None:
     """Where no motion leads the angle of the block is unknown to the page until it has closed its lever."""
     m = da.load(FILES["quick_return"]).with_values(

@@ -57,6 +57,7 @@ def studio(tabs: Any, tmp_path: Path) -> Any:
         yield tabs(served)
 
 
+@pytest.mark.long
 def test_the_fault_of_a_text_is_not_covered_by_forces_of_the_text_before(studio: Studio) -> None:
     s = studio
     held(s, lambda: typed(s, "# a remark\n"))
@@ -81,6 +82,7 @@ def test_forces_are_not_taken_for_those_of_another_option(studio: Studio) -> Non
     assert s.effort() == pytest.approx(float(da.statics(da.loads(s.text)).effort("O2")[0]), rel=1e-9)
 
 
+@pytest.mark.long
 def test_what_is_typed_while_an_edit_is_on_its_way_is_saved_too(studio: Studio, tmp_path: Path) -> None:
     s = studio
     s.page.evaluate(SLOW)

@@ -31,6 +31,7 @@ def test_answers(path: Path) -> None:
     assert not missed, "\n".join([f"{path.name}: {len(missed)} of {len(rows)} answers are missed", *missed])
 
 
+@pytest.mark.long
 def test_every_answer_has_its_reason_and_every_case_its_source() -> None:
     every = {path.name: load(path) for path in FILES}
     assert [name for name, m in every.items() if not (m.title and m.source_text)] == []

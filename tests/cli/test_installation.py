@@ -91,6 +91,7 @@ try dalembert draw four_bar.yaml --theme ""
 """
 
 
+@pytest.mark.long
 def test_bash_completes_commands_options_and_values(run: Run, folder: Path) -> None:
     if shutil.which("bash") is None:
         pytest.skip("no bash")

@@ -105,6 +105,7 @@ def test_a_command_has_the_options_of_its_answer(command: str) -> None:
         )
 
 
+@pytest.mark.long
 def test_o_writes_what_the_ending_selects(run: Run, folder: Path) -> None:
     for ending in ("json", "csv", "xlsx", "nc", "svg", "txt"):
         assert run("solve", "four_bar.yaml", "-o", f"a.{ending}").status == 0

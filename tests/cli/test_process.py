@@ -33,6 +33,7 @@ def test_status_and_streams() -> None:
     assert done.stderr == "none.yaml: file not found\n"
 
 
+@pytest.mark.long
 def test_a_reader_that_goes_away_is_no_error() -> None:
     command = [*COMMAND, "solve", FOUR_BAR, "--positions", "5000", "--csv", "-"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
@@ -103,6 +104,7 @@ def test_interruption_is_quiet_and_leaves_nothing(tmp_path: Path, case: tuple[st
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.long
 def test_a_signal_from_outside_ends_long_work_quietly(tmp_path: Path) -> None:
     path = tmp_path / "out.csv"
     command = [*COMMAND, "solve", FOUR_BAR, "--positions", "60000", "--csv", str(path)]
@@ -201,7 +203,9 @@ def test_long_work_shows_itself_on_a_terminal_only(tmp_path: Path, case: tuple[f
     ("environment", "title"),
     [
         ({"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}, "Антрия ×"),
-        ({"PYTHONIOENCODING": "cp1252"}, r"\u0410\u043d\u0442\u0440\u0438\u044f ×"),
+        pytest.param(
+            {"PYTHONIOENCODING": "cp1252"}, r"\u0410\u043d\u0442\u0440\u0438\u044f ×", marks=pytest.mark.long
+        ),
     ],
 )
 def test_what_a_pipe_is_written_in(environment: dict[str, str], title: str, tmp_path: Path) -> None:

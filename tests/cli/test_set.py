@@ -95,6 +95,7 @@ def test_a_wrong_setting_is_told(run: Run, setting: str, says: str) -> None:
     assert (ran.status, ran.err[: len(says)]) == (2, says)
 
 
+@pytest.mark.long
 def test_a_force_system_and_a_key_with_other_values(run: Run, folder: Path) -> None:
     plate = "forces: {F: {value: 600 @ 90, at: A}}\npoints: {A: [1, 0]}\n"
     (folder / "plate.yaml").write_text(plate, encoding="utf-8")

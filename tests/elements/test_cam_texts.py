@@ -31,6 +31,7 @@ def stripped(rows: list[list[str]]) -> list[list[str]]:
     return [[cell.strip() for cell in row] for row in rows]
 
 
+@pytest.mark.long
 def test_a_harmonic_cam_prints_its_steepest_place_its_nose_and_where_its_acceleration_jumps() -> None:
     """y = 48 mm + h/2 (1 - cos(pi x)): tan of the pressure angle is y'/y, the nose y^2/(y - y'')."""
     up = {"to": "20 mm", "in": "90 deg", "by": "harmonic"}

@@ -252,6 +252,7 @@ def test_contacts_that_are_none_are_refused(wrong: dict[str, Any]) -> None:
         da.hertz_line(**right | wrong)
 
 
+@pytest.mark.long
 def test_points_are_met_by_a_face_and_by_a_roller_as_the_disc_they_are_from() -> None:
     e, radius = 0.012, 0.04
     angle = np.linspace(0, 360, 121)[:-1]
@@ -460,6 +461,7 @@ def test_a_copied_cam_is_the_cam_of_the_copied_machine() -> None:
         da.mechanism(tree)
 
 
+@pytest.mark.long
 def test_a_cam_is_drawn_to_scale() -> None:
     """Outline, roller, normal force and pressure angle."""
     m = da.mechanism(machine({"roller": "8 mm"}))

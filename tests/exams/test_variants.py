@@ -224,6 +224,7 @@ def test_the_title_has_the_numbers_of_its_variant() -> None:
         assert str(question_sheet(v.result, found.asked, v.name)).startswith(titles[v.name])
 
 
+@pytest.mark.long
 def test_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "exam"
     vary = [x for path, values in FOUR_BAR.items() for x in ("--vary", f"{path}={values}")]
@@ -359,6 +360,7 @@ def test_a_question_states_the_data_as_the_file_does(tmp_path: Path) -> None:
     assert sheet.subtitle == "ME 301 · Variant 07"
 
 
+@pytest.mark.long
 def test_marks_stand_on_the_key_and_every_question_in_one_file(tmp_path: Path) -> None:
     pytest.importorskip("typst")
     some, out = four_bar(ask=["effort.O2", "reaction.A"]), tmp_path / "exam"

@@ -211,6 +211,7 @@ def test_friction_teeth_and_space_have_own_figures_too() -> None:
     assert judged(rough, sheet) == ({"T": "moments about O on crank"}, ["A"])
 
 
+@pytest.mark.long
 def test_figures_that_are_all_wrong_rarely_follow_by_chance() -> None:
     """100 sheets of random numbers near the right ones, 5 figures each: at most 2 in 100 figures follow."""
     r, rng, found = da.dynamics(machine()), np.random.default_rng(5), 0

@@ -303,6 +303,7 @@ def parts() -> dict[str, float]:
     return out
 
 
+@pytest.mark.long
 def test_mistakes_in_space_are_the_machine_with_that_made_by_hand() -> None:
     r = da.dynamics(spatial())
     found, hand = efforts(r, "", but="B of rod"), in_space()  # whose poses are sought for long

@@ -247,6 +247,7 @@ def test_what_is_always_zero_has_slope_zero(reduce: str) -> None:
     assert (k().gradient("reaction_moment.A") == 0).all()
 
 
+@pytest.mark.long
 def test_what_redundant_constraints_leave_open_is_refused_with_its_reason() -> None:
     """A second coupler at the same pins: the effort, the frame's forces and the motion are those of the first alone."""
     tree = four_bar_tree()

@@ -108,6 +108,7 @@ def test_strong_friction(name: str, mu: float, count: int) -> None:
     assert slopes_are_the_executor_s(m, vary, "effort.O2", at, (1e-3,)) == count
 
 
+@pytest.mark.long
 def test_a_parallelogram_s_neighbours() -> None:
     """Every design of other geometry goes to the general executor."""
     m = da.four_bar(ground=0.3, crank=0.1, coupler=0.3, rocker=0.1, sweep=(0.3, 3.6), positions=6)
@@ -116,6 +117,7 @@ def test_a_parallelogram_s_neighbours() -> None:
     assert slopes_are_the_executor_s(m, vary, "reaction.B", at, (1e-4,)) >= 5
 
 
+@pytest.mark.long
 def test_beside_a_dead_centre() -> None:
     """A tenth of a degree beside it, where the closed form is left."""
     m = da.four_bar(ground=0.3, crank=0.1, coupler=0.25, rocker=0.1500002, positions=24)
@@ -134,6 +136,7 @@ def test_random_mechanisms_with_strong_friction(seed: int) -> None:
     )
 
 
+@pytest.mark.long
 def test_a_peak_over_positions_of_both() -> None:
     """A design with some positions in doubt is reduced as a whole, its slopes too."""
     m = cycle("toggle_press", 24).with_values({"friction.coefficient": 1.5})

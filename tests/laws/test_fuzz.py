@@ -156,6 +156,7 @@ def test_any_value_in_a_link(link: str, key: str, value: Any) -> None:
 
 @settings(max_examples=10)
 @given(st.lists(st.floats(0.02, 2.0), min_size=4, max_size=4), st.floats(-360, 360), st.floats(-100, 100))
+@pytest.mark.long
 def test_any_four_bar_closes_or_says_why(lengths: list[float], start: float, speed: float) -> None:
     a, b, c, d = lengths
     check({

@@ -114,6 +114,7 @@ def test_a_range_is_found_in_a_list_in_any_order_with_wheels_that_have_a_phase(w
     assert np.nanmax(np.abs(np.ptp((np.degrees(r.angle("wheel")) - travel)[r.ok]))) < 1e-9
 
 
+@pytest.mark.long
 def test_all_ranges_of_two_drives_are_found_however_many_gaps_lie_between_them() -> None:
     rng = np.random.default_rng(3)
     turns = [x.ravel() for x in np.meshgrid(np.arange(0.0, 360.0, 30.0), np.arange(0.0, 360.0, 45.0))]

@@ -92,6 +92,7 @@ def test_no_point_of_a_table_is_stepped_over(seed: int, where: str) -> None:
     check(s)
 
 
+@pytest.mark.long
 def test_a_periodic_table_goes_on_and_wakes_what_friction_holds() -> None:
     """Held until the table passes the brake, and from then on J w' = M(t) - 3."""
     table = "{against: time, x: [0, 0.5, 1], y: [0, 4, 0], periodic: 1 s}"

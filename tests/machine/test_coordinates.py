@@ -91,6 +91,7 @@ def test_the_motor_of_a_piston_gives_on_what_it_gives() -> None:
     assert s.kinetic[-1] - s.kinetic[0] == pytest.approx(CubicSpline(s.time, given).integrate(0, 1), rel=1e-5)
 
 
+@pytest.mark.long
 def test_an_effort_with_corners_is_followed_while_its_drive_is_led() -> None:
     """A spring that only pulls, on the piston: the energy gained is the loss of its own, at every instant."""
     s = led_by_its_piston('{effort: "max(0, 2000*(0.21 - guide)) N"}')
@@ -120,6 +121,7 @@ def test_two_drives_tumble_with_a_five_bar() -> None:
     assert s.closure < 1e-12
 
 
+@pytest.mark.long
 def test_a_lifted_machine_goes_through_its_dead_centre_too() -> None:
     """In space its crank leads as in the plane, and its forces are the same."""
     m = da.loads(

@@ -91,6 +91,7 @@ def test_the_work_of_a_prescribed_drive_is_that_of_its_effort(monkeypatch: pytes
     assert s.energy_residual < 1e-9
 
 
+@pytest.mark.long
 def test_what_is_not_sure_in_machine_code_goes_to_the_solution_in_numpy(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

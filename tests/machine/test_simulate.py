@@ -215,6 +215,7 @@ def test_the_motion_found_asks_for_the_efforts_that_made_it(seed: int) -> None:
 HAMMER = Path(__file__).parents[2] / "docs" / "drop-hammer.yaml"
 
 
+@pytest.mark.long
 def test_a_hammer_bounces_rests_on_its_stop_and_is_lifted() -> None:
     """Impacts at t0 (1 + 2 e + 2 e^2 + ...), rest at t0 (1 + e)/(1 - e), until the rope pulls with the weight."""
     m, e, g = da.load(HAMMER), 0.4, 9.80665

@@ -115,6 +115,7 @@ def test_headings_stand_above_their_panels_and_stacks_that_are_too_large_are_unp
     assert [[getattr(item, "name", "") for item in page.items] for page in found] == pages
 
 
+@pytest.mark.long
 def test_a_pdf_has_pages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file, out = str(examples()["four_bar"]), tmp_path / "a.pdf"
 

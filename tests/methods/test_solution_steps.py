@@ -29,11 +29,11 @@ def solved(name: str) -> PaperSolution | None:
     return None if k is None else r.steps(k + 1)
 
 
-@pytest.mark.parametrize("part", tiers([0], [1, 2]))
+@pytest.mark.parametrize("part", tiers([0], range(1, 6)))
 def test_every_number_of_every_bundled_file_is_the_answers(part: int) -> None:
-    """A third of the files."""
+    """A sixth of the files."""
     compared = 0
-    for name in list(FILES)[part::3]:
+    for name in list(FILES)[part::6]:
         s = solved(name)
         if s is None:
             continue
@@ -49,7 +49,7 @@ def test_every_number_of_every_bundled_file_is_the_answers(part: int) -> None:
             assert left <= SAME * max((abs(t.value) for t in step.terms), default=1.0), (name, step.number)
         for effort in (u for u in e.unknowns if u.kind == "effort"):
             assert any(u.name == effort.name for step in s.steps for u in step.unknowns), name
-    assert compared > 300
+    assert compared > 120
 
 
 @pytest.mark.long

@@ -275,6 +275,7 @@ def test_rounding_noise_is_no_force() -> None:
     assert not any(t.startswith("F_{I3}") or "forces: 1 mm" in t for t in texts)
 
 
+@pytest.mark.long
 def test_a_position_without_a_pose_is_refused_with_its_reason() -> None:
     """Others are drawn, and move; where only the forces are missing they are left out."""
     long = da.mechanism(MACHINES["rssr"]).with_values({"links.crank.points.B": ["0.2 m", "0 m", "0 m"]})

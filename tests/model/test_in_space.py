@@ -98,6 +98,7 @@ def test_principal_values_of_a_matrix() -> None:
     assert impossible(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 2.1)))
 
 
+@pytest.mark.long
 def test_an_inertia_that_no_body_has_is_analysed_and_said() -> None:
     m = load(FILE).with_values(
         {"links.crank.inertia": (1e-4, 0, 0), "links.rocker.inertia": (1e-3, 1e-4, 1e-4)}

@@ -42,6 +42,7 @@ def test_what_is_written_reads_back_equal_at_length(form: str, count: int) -> No
         texts, texts | st.integers(-99, 99) | st.floats(allow_nan=False, allow_infinity=False), min_size=1
     )
 )
+@pytest.mark.long
 def test_any_text_survives_yaml(tree: dict[str, object]) -> None:
     assert read_text(tree_text(tree))[0] == tree
 

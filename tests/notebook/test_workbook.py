@@ -175,6 +175,7 @@ def test_angles_have_an_axis_of_round_parts_of_a_turn(ends: tuple[float, float],
     assert [c.anchor._from.row for c in (effort, forces, polar)] == [0, 21, 42]
 
 
+@pytest.mark.long
 def test_what_has_no_drive_is_drawn_over_its_rows(tmp_path: Path) -> None:
     """From 1; designs of a study are numbered from 0, and lengths have an axis from the first to the last."""
     c = da.cam(da.disc_cam(positions=12), "F", count=13)

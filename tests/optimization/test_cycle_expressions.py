@@ -75,6 +75,7 @@ CONDITIONS = {
 }
 
 
+@pytest.mark.long
 def test_margins_are_those_of_the_analysis() -> None:
     """Where both sides are of the cycle, one row of the polish; else one at each position."""
     p = problem("effort.O2", *CONDITIONS)

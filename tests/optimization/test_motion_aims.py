@@ -61,6 +61,7 @@ def test_a_file_with_a_condition_along_the_motion(tmp_path: Path) -> None:
         optimize_file(file)
 
 
+@pytest.mark.long
 def test_what_is_not_compiled_is_simulated() -> None:
     """Behind a gear with losses, where no machine code reaches: the torque that arrives is smaller by them."""
     lossy = da.loads(

@@ -271,6 +271,7 @@ def test_parallel_strands_leave_the_wheel_on_the_side_on_which_the_rope_passes()
     assert down == pytest.approx(np.array([[[0.12, 0.12], [0, 0]], [[0, 0], [0, 0.2]]]), abs=1e-12)
 
 
+@pytest.mark.long
 def test_saved_text_is_the_mechanism() -> None:
     for name in ("four_bar", "engine", "quick_return", "rssr"):
         m = da.load(FILES[name])

@@ -343,6 +343,7 @@ def test_a_doubled_joint_is_redundant_and_changes_no_effort(seed: int) -> None:
         assert np.max(np.abs(both - wrenches(single, name))) < 10 * TOLERANCE * scale
 
 
+@pytest.mark.long
 def test_the_drawings_have_everything() -> None:
     """All pairs, drives, loads, rods, redundant ones and both ways to tell the first pose come up."""
     drawings = [random_case(seed) for seed in range(40)]

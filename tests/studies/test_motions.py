@@ -125,6 +125,7 @@ def test_a_store_goes_on_with_the_same_bits(
     assert (run_up(designs=300, reduce=reduce).extended(600).run()["time"] == whole["time"]).all()
 
 
+@pytest.mark.long
 def test_undecided_motions_are_no_numbers() -> None:
     """A long crank comes to a dead centre."""
     vary = {"links.crank.points.A.0": "50..350 mm"}
