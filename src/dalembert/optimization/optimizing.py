@@ -218,7 +218,7 @@ def _best(
 
 
 def is_alike(one: tuple[float, float], best: tuple[float, float]) -> bool:
-    """Whether a design keeps every condition and is as good as the best one, of whichever sign the aim is; both by
+    """True if a design keeps every condition and is as good as the best one, whatever the sign of the aim; both by
     `judge`."""
     return one[0] <= 0 and one[1] <= best[1] + SAME * abs(best[1])
 

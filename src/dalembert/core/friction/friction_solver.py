@@ -56,10 +56,10 @@ SMALLEST = 1e-10
 
 
 LOST = 1e9
-"""Growth of rounding in friction's equations at which the branch has ended: beside it the forces grow without bound."""
+"""Condition number of friction's equations at which the branch has ended: forces would have lost nine digits."""
 
 WEAK = 0.1
-"""Determinant ratio from which rounding grows little."""
+"""Determinant ratio below which the condition number is computed."""
 
 
 class FrictionSolution(NamedTuple):
@@ -123,7 +123,7 @@ def solve_friction(contacts: Contacts, r: ContactResponse, state: SlipState) -> 
 
 
 def _growth(contacts: Contacts, r: ContactResponse, sense: Array, c: Array, z: Array) -> Array:
-    """How many times rounding of the terms grows in the forces z (Skeel, 1979); infinite where they are singular."""
+    """Condition number of the forces z for errors of the terms (Skeel, 1979); infinite where the equations are singular."""
     r = with_strength(r, c)
     y = argument(r, z)
     equations = jacobian(r, slope(contacts, y, _largest(y))[0], sense)

@@ -68,7 +68,7 @@ PASSES = ("always_inliner", "instruction_combine", "reassociate", "new_gvn", "in
 
 
 LEVEL = 3
-"""How far LLVM optimizes while it makes machine code: numbers differ by rounding at most, and 0 takes half the time."""
+"""LLVM's level of optimization for machine code: numbers differ by rounding at most, and 0 takes half the time."""
 
 
 @lru_cache(16)

@@ -17,7 +17,7 @@ NEARLY = 0.9
 """Part of the working speed that counts as reached."""
 INSTANTS, TOLERANCE = 101, 1e-8
 BEYOND = 1 + 1e-6
-"""The limit of the motion shown, over the time at which it ends: rounding does not choose which of both comes first."""
+"""Time limit of the second run over the end of the first: rounding does not decide which of the two ends it."""
 
 
 def start_up_part(c: DesignContext) -> Iterator[DesignPart]:
