@@ -123,7 +123,7 @@ def solve_friction(contacts: Contacts, r: ContactResponse, state: SlipState) -> 
 
 
 def _growth(contacts: Contacts, r: ContactResponse, sense: Array, c: Array, z: Array) -> Array:
-    """Condition number of the forces z for errors of the terms (Skeel, 1979), infinite where there is no solution."""
+    """Condition number of the forces z for errors of the terms (Skeel, 1979); infinite if they are singular."""
     r = with_strength(r, c)
     y = argument(r, z)
     equations = jacobian(r, slope(contacts, y, _largest(y))[0], sense)
