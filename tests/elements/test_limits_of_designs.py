@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from types import SimpleNamespace
 from typing import Any
 
@@ -17,6 +18,7 @@ from dalembert.machine.elements.follower_spring import spring_for
 from dalembert.machine.elements.governors import Governor, _isochronous
 from dalembert.machine.elements.turning_equilibria import _extrapolated
 from tests.elements.test_cams import machine as cam_machine
+from tests.elements.test_governors import PORTER
 from tests.elements.test_pins import hung
 
 UNKNOWN: Any = None
@@ -188,28 +190,18 @@ def test_the_heat_of_a_brake_is_its_share_of_the_work_of_friction() -> None:
     assert _Braked(lost, -17.0, SimpleNamespace(BRAKES=False)).heat == {}
 
 
-PORTER = """units: {length: in, force: lbf, mass: lb}
-gravity: [0, -32.2 ft/s^2]
-links:
-  ground: {points: {O: [0, 0]}}
-  upper:  {points: {O: [0, 0], B: [12, 0]}, mass: 15, center: [12, 0]}
-  lower:  {points: {B: [0, 0], C: [12, 0]}}
-  sleeve: {points: {S: [0, 0], C: [%g, 0]}, mass: 60}
-joints:
-  O:    {type: pin, links: [ground, upper]}
-  B:    {type: pin, links: [upper, lower]}
-  C:    {type: pin, links: [lower, sleeve]}
-  lift: {type: slider, links: [ground, sleeve], at: [O, S], direction: 90, angle: -90}
-drives: {O: {position: [%g, %g]}}
-turning: {axis: y, speed: unknown}
-assembly: {upper: %g, lower: %g, sleeve: 0}
-"""
+def porter(offset: float, *angles: float) -> da.Mechanism:
+    """The Porter governor of the book, its lower arms so far off the axis: angles of O at both ends, first angles."""
+    low, high, upper, lower = angles
+    text = PORTER.replace("C: [1.5, 0]", f"C: [{offset}, 0]")
+    text = re.sub(r"position: .*?]", f"position: [{low}, {high}]", text)
+    return da.loads(re.sub("upper: -48, lower: -120", f"upper: {upper}, lower: {lower}", text))
 
 
 def test_a_governor_on_the_other_side_of_its_axis_is_the_same() -> None:
     """Its ball is as far from the axis, and as fast, and pulls as much."""
     here, there = (
-        da.governor(da.loads(PORTER % numbers), count=25)
+        da.governor(porter(*numbers), count=25)
         for numbers in ((1.5, -50, -30, -48, -120), (-1.5, -130, -150, -132, -60))
     )
     for name in ("speed", "height", "radius", "sleeve_force", "pull", "stable"):
@@ -221,9 +213,7 @@ def test_a_governor_on_the_other_side_of_its_axis_is_the_same() -> None:
 
 def test_the_rows_of_a_governor_follow_its_range() -> None:
     table: Any = next(
-        x
-        for x in da.governor(da.loads(PORTER % (1.5, -50, -30, -48, -120))).contents()
-        if not isinstance(x, str)
+        x for x in da.governor(porter(1.5, -50, -30, -48, -120)).contents() if not isinstance(x, str)
     )
     places = [float(row[0]) for row in table.rows]
     assert places == sorted(places)

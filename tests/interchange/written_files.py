@@ -50,11 +50,9 @@ def read_back(m: da.Mechanism, path: Path) -> tuple[da.Mechanism, list[str]]:
 
 
 def largest_difference(m: da.Mechanism, back: da.Mechanism, drawn: bool = False) -> float:
-    """Of the efforts of the first position, over the largest, or a hundredth of the largest moment where all are 0."""
+    """Of the efforts of the first position, over the largest, or over the largest moment where all are 0."""
     space = in_space(m)
     ours, theirs = (da.dynamics(driven_alike(x, space, d)) for x, d in ((space, False), (back, drawn)))
     efforts = np.array([[r.effort(name)[0] for name in space.drives] for r in (ours, theirs)])
-    size = max(
-        float(np.abs(efforts[0]).max()), 1e-2 * float(np.nanmax(np.abs(ours.moment_array), initial=0.0))
-    )
+    size = float(np.abs(efforts[0]).max()) or float(np.nanmax(np.abs(ours.moment_array)))
     return float(np.abs(efforts[0] - efforts[1]).max() / size)

@@ -186,7 +186,7 @@ NESTED = {
         f"{b}: &{b} [{', '.join(['*' + a] * 10)}]\n" for a, b in zip("abcdefgh", "bcdefghi", strict=True)
     ),
     "large": "# " + "a" * 5_000_000,
-    "values": "x: [" + "1," * 30_000 + "1]",
+    "values": "x: [" + "1," * 51_000 + "1]",
     "number": "links: {a: {mass: " + "9" * 900_000 + "}}",
     "expression": "links: {a: {}}\nloads: {F: {type: couple, on: a, value: " + "(" * 900_000 + "}}",
     "signs": "links: {a: {}}\nloads: {F: {type: couple, on: a, value: '" + "-" * 900 + "1'}}",

@@ -54,12 +54,8 @@ SHORT = 1e-3
 SMALLEST = 1e-10
 """Step of the friction scale below which the branch has ended."""
 
-
 LOST = 1e9
 """Condition number of friction's equations at which the branch has ended: forces would have lost nine digits."""
-
-WEAK = 0.1
-"""Determinant ratio below which the condition number is computed."""
 
 
 class FrictionSolution(NamedTuple):
@@ -114,15 +110,14 @@ def solve_friction(contacts: Contacts, r: ContactResponse, state: SlipState) -> 
         z[rest], determinant[rest] = part.z, part.determinant
         critical[rest] = np.where(part.arrived, np.nan, scale)
         z[rest[~part.arrived]] = np.nan
-    weak = np.flatnonzero((determinant < WEAK) & np.isfinite(z).all(axis=-1))
-    if weak.size:
-        ended = weak[_growth(contacts, at(r, weak), sense[weak], c[weak], z[weak]) > LOST]
-        critical[ended], z[ended] = 1.0, np.nan
+    solved = np.flatnonzero(np.isfinite(z).all(axis=-1))
+    ended = solved[_condition(contacts, at(r, solved), sense[solved], c[solved], z[solved]) > LOST]
+    critical[ended], z[ended] = 1.0, np.nan
     x, locked = multiplier(r, c * z), np.zeros(len(sense), bool)
     return FrictionSolution(state, z, c, x, determinant, critical, single, locked)
 
 
-def _growth(contacts: Contacts, r: ContactResponse, sense: Array, c: Array, z: Array) -> Array:
+def _condition(contacts: Contacts, r: ContactResponse, sense: Array, c: Array, z: Array) -> Array:
     """Condition number of the forces z for errors of the terms (Skeel, 1979); infinite if they are singular."""
     r = with_strength(r, c)
     y = argument(r, z)
