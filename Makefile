@@ -1,10 +1,11 @@
 # make run        a private environment in .venv, then the first example solved and printed
-# make test       the same environment with what the tests need; ruff, mypy --strict, pytest
+# make test       the same environment with what the tests need; ruff, pytest
+# make lint       ruff, mypy --strict
 # make gallery    drawings and worked solutions of the bundled problems, in build/gallery
 # make test-browser  the live pages in a real Chromium, which it installs where there is none (Debian, as root)
 # make docs       the site, in build/site: every example and notebook run, every page opened in Chromium where there is one
 # make audit      known vulnerabilities of the packages that are used
-# make test-long  the long tests too, 15 minutes on two cores; make test-exhaustive all there are (over an hour)
+# make test-long  mypy and the long tests too; make test-exhaustive all there are (over an hour)
 # Needs nothing but make and Python 3.11 or newer.
 
 VENV ?= .venv
@@ -30,8 +31,9 @@ run: $(VENV)/.run
 TESTED = @mkdir -p build; $(BIN)/mypy --strict > build/mypy.txt 2>&1 & typed=$$!; \
   $(PYTEST) $(1) $(PYTEST_ARGS); tests=$$?; wait $$typed; typed=$$?; cat build/mypy.txt; exit $$((tests | typed))
 
+# In a new checkout it takes half a minute of each core to rewrite the assertions: only what fails is run again with them.
 test: style
-	$(call TESTED)
+	@$(PYTEST) --assert=plain $(PYTEST_ARGS) || { [ $$? = 1 ] && $(PYTEST) --last-failed $(PYTEST_ARGS); exit 1; }
 
 test-long: style
 	$(call TESTED,-m "not exhaustive")

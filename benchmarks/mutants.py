@@ -201,7 +201,7 @@ def measure(processes: int) -> None:
             path.unlink()
         MEASURED.write_text(json.dumps({"keys": list(marks), "tests": kept}))
 
-    collect(work)
+    collect(work, "--every-quick")
 
 
 def test_of(node: str) -> str:

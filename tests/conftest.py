@@ -1,5 +1,7 @@
 """One thread for small matrices; random tests draw anew, but not where a verdict has to repeat; tests in another order.
 
+`left_to_long.txt` names quick tests that are long ones: `benchmarks/quick_tests.py` writes it.
+
 The suite runs as many processes as there are cores; threads of linear algebra in each would wait for each other.
 """
 
@@ -16,6 +18,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is imported
 # A shell's background jobs ignore Ctrl-C, and what they start with them: programs that tests interrupt do not.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+LEFT_TO_LONG = frozenset(
+    (Path(__file__).parent / "left_to_long.txt").read_text(encoding="utf-8").splitlines()
+)
+
 settings.register_profile("patient", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("ci", settings.get_profile("patient"), derandomize=True, database=None)
 settings.load_profile("ci" if os.environ.get("CI") else "patient")
@@ -24,6 +30,9 @@ settings.load_profile("ci" if os.environ.get("CI") else "patient")
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--shuffle", type=int, metavar="SEED", help="import test files and run tests in a random order"
+    )
+    parser.addoption(
+        "--every-quick", action="store_true", help="with the quick tests of tests/left_to_long.txt"
     )
 
 
@@ -43,6 +52,11 @@ def pytest_configure(config: pytest.Config) -> None:
             str(here.parent / "src"),
         ]
         random.Random(seed).shuffle(config.args)
+
+
+def pytest_itemcollected(item: pytest.Item) -> None:
+    if item.nodeid in LEFT_TO_LONG and not item.config.getoption("--every-quick"):
+        item.add_marker(pytest.mark.long)
 
 
 @pytest.hookimpl(trylast=True)

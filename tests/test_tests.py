@@ -67,3 +67,10 @@ def test_no_test_compares_under_a_condition_only() -> None:
 def test_no_test_returns_before_it_has_compared() -> None:
     """Draw until the condition holds (`tiers.nth`) instead."""
     assert [at for at, f in written() if returns_early(f)] == []
+
+
+def test_what_is_left_to_the_long_tests_is_a_test() -> None:
+    here = Path(__file__).parent
+    for name in (here / "left_to_long.txt").read_text(encoding="utf-8").splitlines():
+        file, _, test = name.partition("[")[0].rpartition("::")
+        assert f"def {test}(" in (here.parent / file).read_text(encoding="utf-8"), name

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-BLOCK, LONG = 15, 1
+BLOCK, LONG = 6, 1
 """Mechanisms in one test of a block, and how many blocks of each law are long."""
 
 
@@ -24,6 +24,17 @@ def tiers(quick: Iterable[Any], long: Iterable[Any], exhaustive: Iterable[Any] =
         *(pytest.param(value, marks=pytest.mark.long) for value in long),
         *(pytest.param(value, marks=pytest.mark.exhaustive) for value in exhaustive),
     ]
+
+
+def sampled(quick: Iterable[Any], every: Iterable[Any]) -> list[Any]:
+    """Quick are these; of the rest, in order, every other one is long and what is left exhaustive.
+
+    >>> [getattr(p, "values", p) for p in sampled("b", "edcba")]
+    ['b', ('a',), ('d',), ('c',), ('e',)]
+    """
+    quick = list(quick)
+    rest = sorted(set(every) - set(quick))
+    return tiers(quick, rest[::2], rest[1::2])
 
 
 def crossed(names: str, *lists: Iterable[Any]) -> Any:

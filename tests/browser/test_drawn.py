@@ -32,19 +32,9 @@ PLANE = [
 ]
 QUICK = ("slider_crank",)
 LONG = (
+    *("whitworth", "stephenson_1", "scissor", "bucket", "planetary_train", "seed-000-b-crank-inertia-force"),
     *(
-        "inverted_slider_crank",
-        "whitworth",
-        "watt_1",
-        "stephenson_1",
-        "scotch_yoke",
-        "five_bar",
-        "scissor",
-        "bucket",
-    ),
-    *("belt_drive", "planetary_train", "seed-000-b-crank-inertia-force", "seed-001-cd-collar-250-mm"),
-    *(
-        "seed-002-1-four-link-crossed",
+        "seed-001-cd-collar-250-mm",
         "seed-002-3-four-link-three-forces",
         "seed-002-5-slider-crank-force-on-rod",
     ),

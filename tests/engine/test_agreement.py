@@ -16,7 +16,7 @@ from tests.friction.rough import rough_tree
 from tests.random_mechanisms import random_case, tree
 from tests.random_space import random_case as random_space_case
 from tests.random_space import tree as space_tree
-from tests.tiers import over_seeds, tiers
+from tests.tiers import over_seeds, sampled
 
 TOLERANCE = 1e-10
 FILES = {**cases(), **examples()}
@@ -103,7 +103,7 @@ def test_templates_are_answered_by_programs() -> None:
     assert ways.count("all") == sum(m.dimension == 2 for m in made) - 10 >= 20
 
 
-@pytest.mark.parametrize("name", tiers(QUICK, sorted(set(FILES) - set(QUICK))))
+@pytest.mark.parametrize("name", sampled(QUICK, FILES))
 def test_bundled_files(name: str) -> None:
     m = da.load(FILES[name])
     for run in (da.statics, da.dynamics):

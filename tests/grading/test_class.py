@@ -31,7 +31,7 @@ MADE = {
 }
 
 
-@pytest.mark.parametrize("name", tiers([], sorted(MADE)))
+@pytest.mark.parametrize("name", tiers([], sorted(MADE)[1:2], [*sorted(MADE)[:1], *sorted(MADE)[2:]]))
 def test_known_mistakes_of_a_class_are_named_and_true_sheets_have_all_marks(
     name: str, tmp_path: Path
 ) -> None:

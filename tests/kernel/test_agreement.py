@@ -22,7 +22,7 @@ def compared(seed: int) -> tuple[float, int]:
     return max(difference(k, r, d, general(m, k, values[d])) for d in range(2)), r.redone
 
 
-@pytest.mark.parametrize("seed", tiers(range(2), range(2, 30), range(30, 1000)))
+@pytest.mark.parametrize("seed", tiers(range(2), range(2, 16), range(16, 1000)))
 def test_random_mechanisms(seed: int) -> None:
     worst, _ = compared(seed)
     assert worst < TOLERANCE

@@ -10,7 +10,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from tests.kernel.comparing import difference, every_number, general
-from tests.tiers import tiers
+from tests.tiers import sampled
 
 FILES = {**cases(), **examples()}
 
@@ -47,7 +47,7 @@ def compiled(m: Any, free: bool) -> Any:
     return None
 
 
-@pytest.mark.parametrize("name", tiers(QUICK, sorted(set(FILES) - set(QUICK))))
+@pytest.mark.parametrize("name", sampled(QUICK, FILES))
 def test_every_file_answers_as_the_general_executor_does(name: str) -> None:
     m = da.load(FILES[name])
     for k in filter(None, (compiled(m, free=False), compiled(m, free=True))):

@@ -97,7 +97,7 @@ def test_friction(seed: int) -> None:
     assert agrees(rough(seed, most=0.3), seed).redone == 0
 
 
-@pytest.mark.parametrize("start", tiers((), range(0, 20, 10), range(20, 200, 10)))
+@pytest.mark.parametrize("start", tiers((), range(0, 10, 10), range(10, 200, 10)))
 def test_friction_of_many(start: int) -> None:
     """Of journals, collars, guides, balls and threads."""
     for seed in [seed for seed in range(start, start + 10) if not spun(seed)]:

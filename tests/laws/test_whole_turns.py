@@ -127,7 +127,7 @@ FOUR_BARS = {
 CASES = [
     ("oscillating, as stated", 0),
     ("drag link, two turns more", 1),
-    *(pytest.param(name, seed, marks=pytest.mark.long) for name in FOUR_BARS for seed in range(2, 14)),
+    *(pytest.param(name, seed, marks=pytest.mark.long) for name in FOUR_BARS for seed in range(2, 8)),
 ]
 
 

@@ -35,7 +35,7 @@ def compiled(report: Report, folder: Path) -> str:
     return said
 
 
-@pytest.mark.parametrize("name", tiers([], [*PICTURES, *list(examples())[::3], *list(cases())[::9]]))
+@pytest.mark.parametrize("name", tiers([], [*PICTURES, *list(examples())[::6], *list(cases())[::18]]))
 def test_reports_with_their_drawings_compile_and_fit_the_page(name: str, tmp_path: Path) -> None:
     report = da.report(da.solve(da.load((examples() | cases())[name])))
     said = compiled(report, tmp_path)

@@ -26,7 +26,7 @@ from tests.methods.printed_tables import read_sheet
 from tests.random_mechanisms import random_case
 from tests.random_space import random_case as random_space_case
 from tests.space.test_laws import solved as solved_in_space
-from tests.tiers import over, tiers
+from tests.tiers import over, sampled, tiers
 from tests.wrench.random_systems import DIMENSIONS, random_system
 
 SYSTEMS = {
@@ -182,7 +182,7 @@ def test_of_force_systems(seed: int, dimension: int) -> None:
 NOISY = ("balance_position", "ba-01-rotor-with-four-masses", "sp-05-hooke-joint-greatest-acceleration")
 
 
-@pytest.mark.parametrize("name", tiers(NOISY, [n for n in BUNDLED if n not in NOISY]))
+@pytest.mark.parametrize("name", sampled(NOISY, BUNDLED))
 def test_rounding_is_printed_as_0(name: str) -> None:
     """In the answer, both methods and the worked solution; only what is left of a sum that should be 0 is said."""
     r = da.solve(mechanism(name))

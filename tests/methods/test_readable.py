@@ -11,7 +11,7 @@ from dalembert.bundled import cases, examples
 from dalembert.reports.sheet import Drawings
 from dalembert.views.paper.scene import Scene
 from tests.methods.readable import text_over_lines, text_overlaps
-from tests.tiers import tiers
+from tests.tiers import sampled
 
 FILES = cases() | examples()
 QUICK = ["quick_return", "seed-002-7g-engine-guide-100-mm"]
@@ -29,7 +29,7 @@ def drawings(r: da.Result) -> Iterator[Scene]:
         yield da.draw.charts(r)
 
 
-@pytest.mark.parametrize("name", tiers(QUICK, [name for name in FILES if name not in QUICK]))
+@pytest.mark.parametrize("name", sampled(QUICK, FILES))
 def test_no_text_is_over_another_or_over_a_line(name: str) -> None:
     r = da.solve(da.load(FILES[name]))
     for scene in drawings(r):

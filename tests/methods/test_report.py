@@ -18,7 +18,7 @@ from dalembert.reports.sheet import Drawings, Equations, Matrix, ReportSheet, Sh
 from dalembert.reports.working import working
 from dalembert.views.notation import Notation, Shown
 from tests.methods.readable import text_over_lines, text_overlaps
-from tests.tiers import tiers
+from tests.tiers import sampled
 
 GALLERY = [*sorted(name for name in cases() if name.startswith("seed-")), *sorted(examples())]
 QUICK = [
@@ -79,7 +79,7 @@ def test_the_nine_equations_hold() -> None:
         assert sum(a * x for a, x in zip(row, values, strict=True)) == pytest.approx(b, abs=1e-7)
 
 
-@pytest.mark.parametrize("name", tiers(QUICK, [n for n in GALLERY if n not in QUICK]))
+@pytest.mark.parametrize("name", sampled(QUICK, GALLERY))
 def test_every_report_of_the_gallery(name: str) -> None:
     sheet = working(result(name))
     for b in blocks(sheet, Drawings):

@@ -26,7 +26,7 @@ def test_what_is_written_reads_back_equal(form: str, mechanism: Mechanism) -> No
 
 
 @pytest.mark.parametrize("form", ["yaml", "json", "toml"])
-@pytest.mark.parametrize("count", tiers((), [500], [2000]))
+@pytest.mark.parametrize("count", tiers((), [150], [2000]))
 def test_what_is_written_reads_back_equal_at_length(form: str, count: int) -> None:
     @settings(max_examples=count)
     @given(mechanism=mechanisms())

@@ -23,7 +23,7 @@ from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
 from dalembert.views.formats.themes import THEMES
 from tests.kernel.wasm_runs import run_wasm
-from tests.tiers import tiers
+from tests.tiers import sampled
 
 FILES = {**cases(), **examples()}
 PLANE = sorted(name for name, path in FILES.items() if "space: space" not in path.read_text(encoding="utf-8"))
@@ -56,7 +56,7 @@ def run_page(data: Any) -> Any:
     return run_wasm(module, values, np.array(path))[:, : k["count"]]
 
 
-@pytest.mark.parametrize("name", tiers(QUICK, sorted(set(PLANE) - set(QUICK) - REFUSED)))
+@pytest.mark.parametrize("name", sampled(QUICK, set(PLANE) - REFUSED))
 def test_every_number_is_that_of_the_analyses(name: str) -> None:
     m = da.load(FILES[name])
     data = json.loads(json.dumps(page_data(m)))
@@ -106,7 +106,7 @@ def test_every_number_is_that_of_the_analyses(name: str) -> None:
     assert set(out[-1][[s == "ok" for s in r.status]]) <= {0.0, 2.0}
 
 
-@pytest.mark.parametrize("name", tiers(["slider_crank"], sorted(set(TEMPLATES) - {"slider_crank"})))
+@pytest.mark.parametrize("name", sampled(["slider_crank"], TEMPLATES))
 def test_a_file_from_a_template_is_a_page_with_handles(name: str) -> None:
     """Parameters that say where a drive stands are no sliders, and keep no other from being one."""
     m = da.loads(template_text(name))
@@ -128,7 +128,7 @@ def test_equations_of_a_free_body_add_up() -> None:
 SPACE = sorted(set(FILES) - set(PLANE))
 
 
-@pytest.mark.parametrize("name", tiers(["rssr"], sorted(set(SPACE) - {"rssr"})))
+@pytest.mark.parametrize("name", sampled(["rssr"], SPACE))
 def test_in_space_too(name: str) -> None:
     """Curves are those of the analysis, and what acts on each link adds up to nothing in six equations."""
     m = da.load(FILES[name])
@@ -358,7 +358,7 @@ def test_every_role_that_is_drawn_has_its_style(name: str) -> None:
 BOUNDED = ["four_bar", "seed-002-7a-engine-friction-circles", "toggle_press", "rssr"]
 
 
-@pytest.mark.parametrize("name", tiers(BOUNDED, sorted(set(FILES) - set(BOUNDED) - REFUSED)))
+@pytest.mark.parametrize("name", sampled(BOUNDED, set(FILES) - REFUSED))
 def test_a_page_bounds_what_the_model_bounds(name: str) -> None:
     """The sign that a page demands of a number is the one without which the model refuses it, and in its words."""
     m = with_cycle(da.load(FILES[name]))

@@ -8,6 +8,7 @@ import pytest
 import dalembert as da
 from tests.oracles.reading import Array, Tree
 from tests.oracles.space import natural, random_drawn
+from tests.tiers import tiers
 
 POSITIONS, SUBSTEPS = 25, 5
 
@@ -39,8 +40,7 @@ def followed(tree: Tree) -> list[Array]:
     return path
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", tiers([], range(8), range(8, 20)))
 def test_positions_are_on_the_branch_drawn(seed: int) -> None:
     r = da.kinematics(da.mechanism(widened(seed, POSITIONS)))
     tree = widened(seed, (POSITIONS - 1) * SUBSTEPS + 1)
