@@ -44,8 +44,8 @@ def main() -> None:
     )
     parser.add_argument("durations", type=Path)
     parser.add_argument("--others", type=int, default=3)
-    parser.add_argument("--least", type=float, default=0.2, help="seconds of the tests that are looked at")
-    parser.add_argument("--alone", type=float, default=0.4)
+    parser.add_argument("--least", type=float, default=0.15, help="seconds of the tests that are looked at")
+    parser.add_argument("--alone", type=float, default=0.3)
     asked = parser.parse_args()
     seconds = Counter[str]()
     for size, name in DURATION.findall(asked.durations.read_text(encoding="utf-8")):

@@ -143,10 +143,11 @@ def test_it_is_an_answer() -> None:
     assert "<" in s._repr_html_()
 
 
-def test_positions_and_rates_in_closed_form_are_the_answers() -> None:
+@pytest.mark.parametrize("nth", tiers([7], [1]))
+def test_positions_and_rates_in_closed_form_are_the_answers(nth: int) -> None:
     """Each line beside the solver to 1e-8; of 108 plane files with drives 96 are closed throughout."""
     files, closed, lines = 0, 0, 0
-    for name in FILES:
+    for name in list(FILES)[::nth]:
         s = solved(name)
         if s is None or s.mechanism.dimension == 3 or not s.mechanism.drives:
             continue
@@ -156,9 +157,9 @@ def test_positions_and_rates_in_closed_form_are_the_answers() -> None:
             for line in step.lines:
                 assert line.gap <= 1e-8 * max(1.0, abs(line.right)), (name, line.letters)
                 lines += 1
-    assert files >= 108
-    assert closed >= 96
-    assert lines > 700
+    assert files >= 108 // nth
+    assert closed >= 96 // nth
+    assert lines > 700 // nth
 
 
 def test_the_four_bar_closes_by_the_cosine_law() -> None:
