@@ -43,7 +43,7 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("durations", type=Path)
-    parser.add_argument("--others", type=int, default=3)
+    parser.add_argument("--others", type=int, default=2)
     parser.add_argument("--least", type=float, default=0.15, help="seconds of the tests that are looked at")
     parser.add_argument("--alone", type=float, default=0.3)
     asked = parser.parse_args()

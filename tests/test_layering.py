@@ -165,6 +165,7 @@ def forbidden(path: Path) -> list[str]:
     return [f"{inner} imports {name}" for name in sorted(taken) if not within(name, allowed)]
 
 
+@pytest.mark.long
 def test_imports_point_one_way() -> None:
     assert [each for path in MODULES for each in forbidden(path)] == []
 
@@ -242,6 +243,7 @@ TWICE = {"Couple"}
 """Public in two rooms: ``da.Couple`` is a load of a model, ``da.wrench.Couple`` a free vector."""
 
 
+@pytest.mark.long
 def test_no_two_classes_have_one_name() -> None:
     classes = [n for path in MODULES for n in ast.walk(tree(path)) if isinstance(n, ast.ClassDef)]
     assert {name for name, count in Counter(n.name for n in classes).items() if count > 1} == TWICE

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 from tests.sources import inner, statements
 
 FILES = sorted(Path(__file__).parent.rglob("test_*.py"))
@@ -58,6 +60,7 @@ def written() -> list[tuple[str, ast.FunctionDef]]:
     return [(f"{file}: {f.name}", f) for file, f in functions if f.name.startswith("test_")]
 
 
+@pytest.mark.long
 def test_no_test_compares_under_a_condition_only() -> None:
     asserting = [(at, f) for at, f in written() if any(isinstance(n, ast.Assert) for n in inner(f))]
     assert len(asserting) > 1400
