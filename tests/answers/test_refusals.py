@@ -106,6 +106,10 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: at(BAR).belt("A"),
         "'A' is not a belt; add a joint of type: belt",
     ),
+    "a contact of a pin": (
+        lambda: at("disc_cam").contact("O"),
+        "the contact of joint 'O' both pushes and pulls; choose among F",
+    ),
     "a rope of a joint": (lambda: at("hoist").rope("ropes"), "'ropes' is not a rope; did you mean 'rope'?"),
     "a rope of a machine without": (
         lambda: at(BAR).rope("A"),

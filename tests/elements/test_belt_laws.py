@@ -382,3 +382,18 @@ def test_a_belt_whose_slack_strand_pulls_nothing_needs_more_than_any_coefficient
         f"Belt belt needs {word}, has 0.3; slips from {most:.6g} N*mm on, at the wheel of one at A = 0 deg. Raise its "
         "tension, its wrap or its coefficient, or lower the load.",
     )
+
+
+@pytest.mark.parametrize("groove", [34.0, 60.0])
+def test_a_groove_divides_the_coefficient_that_is_needed_by_its_sine(groove: float) -> None:
+    """Euler's formula with the coefficient of the file, mu, in a groove of 2 beta: mu / sin(beta)."""
+    tree = da.belt_drive().to_tree()
+    flat = da.statics(da.mechanism(tree)).belt("belt")
+    tree["joints"]["belt"]["groove"] = groove
+    b, sine = da.statics(da.mechanism(tree)).belt("belt"), math.sin(math.radians(groove / 2))
+    assert b.coefficient == pytest.approx(flat.coefficient, rel=1e-12) == pytest.approx(0.3)
+    assert b.slip_coefficient == pytest.approx(flat.slip_coefficient * sine, rel=1e-12)
+    assert b.tight == pytest.approx(flat.tight, rel=1e-12)
+    assert b.limit is not None
+    pressed = (b.limit.tight - b.centrifugal) / (b.limit.slack - b.centrifugal)
+    assert pressed == pytest.approx(np.exp(b.coefficient / sine * b.wrap.min(axis=-1)), rel=1e-9)

@@ -171,6 +171,19 @@ def test_the_four_bar_closes_by_the_cosine_law() -> None:
     assert "a_A,O4B − (ω_3^2 AB)_O4B + ω_4^2 O4B + (α_3 × AB)_O4B = 0" in text
 
 
+@pytest.mark.parametrize("direction", [0, 40, 180])
+@pytest.mark.parametrize("crank", ["35 deg", "200 deg"])
+def test_a_slider_crank_closes_whichever_way_its_guide_is_counted(crank: str, direction: float) -> None:
+    """Above and below the line of the guide, and with the piston ahead of the pin on it or behind."""
+    m = da.slider_crank().with_values({"drives.O2.position": [crank], "joints.guide.direction": direction})
+    steps = ClosedMotion(da.dynamics(m), 0).steps
+    lines = {line.letters: line for step in steps for line in step.lines}
+    ahead = 's = sqrt("AB"^{2} − h^{2})' in lines
+    assert ahead == (direction == 0)
+    assert ("theta_{AB} = gamma + beta" if ahead else "theta_{AB} = (gamma + 180°) − beta") in lines
+    assert max(abs(line.gap) / max(1.0, abs(line.right)) for line in lines.values()) < 1e-12
+
+
 SLOTTED = """links:
   ground: {points: {O: [0, 0], C: [0, -0.2], S: [0.05, 0.02]}}
   crank: {points: {O: [0, 0], A: [0.1, 0]}}
