@@ -256,7 +256,10 @@ NOT_CLOSED = (
 @pytest.mark.parametrize("bad", ["nan", "inf"])
 @pytest.mark.parametrize(
     ("every", "said"),
-    [(False, NOT_CLOSED), (True, "the mesh 'bad.stl' has no triangles; export it again as STL")],
+    [
+        (False, NOT_CLOSED),
+        (True, "the mesh 'bad.stl' has no triangle whose corners are all numbers; export it again as STL"),
+    ],
 )
 def test_triangles_with_a_corner_nowhere_are_left_out(
     every: bool, said: str, bad: str, tmp_path: Path

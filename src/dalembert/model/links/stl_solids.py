@@ -96,7 +96,8 @@ def _read(file: MeshFile, changed: int) -> tuple[float, Array, Array]:
         problem = f"the mesh {file.written!r} cannot be read: {error}"
         raise ModelError(problem, "export it again as STL") from None
     if not len(mesh.faces):  # those with a corner that is no number are left out
-        raise ModelError(f"the mesh {file.written!r} has no triangles", "export it again as STL")
+        what = f"the mesh {file.written!r} has no triangle whose corners are all numbers"
+        raise ModelError(what, "export it again as STL")
     if not mesh.is_watertight or not mesh.is_winding_consistent:
         what = f"the surface of the mesh {file.written!r} is not closed, so it has no volume"
         raise ModelError(what, "close its holes, or give mass, center and inertia")

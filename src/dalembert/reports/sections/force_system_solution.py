@@ -247,14 +247,16 @@ class _Solution:
         """The central axis of a system in space."""
         r, m = self.s.resultant, self.reduced.vector
         size, screw = math.hypot(*r), self.s.central_axis()
-        moment, force, length = self.unit("moment"), self.unit("force"), self.length_unit
+        moment, length, force = self.unit("moment"), self.length_unit, self.shown.unit("force")
+        parts = self.shown.unit("moment").split("·")
+        square = "·".join(f"{x}²" if x == force else x for x in parts)  # both have the unit of force
         product = join_numbers(
             [f"{self.force(a)} cdot {bracket_negative(self.moment(b))}" for a, b in zip(r, m, strict=True)]
         )
         value = self.shown.value("force", 1.0) * self.shown.value("moment", float(r @ m))
         foot = np.cross(r / size, m) / size
         lines = [
-            Working(f"R cdot {self.about}", product, f"{self.shown.notation.number(value)} {force} {moment}"),
+            Working(f"R cdot {self.about}", product, f'{self.shown.notation.number(value)} "{square}"'),
             Working(f"M = R cdot {self.about} / R", "", f"{self.moment(screw.moment)} {moment}"),
             Working("p = M / R", "", f"{self.length(screw.pitch)} {length}"),
             Working(
