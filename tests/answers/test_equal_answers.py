@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import dalembert as da
 from dalembert.answer import workbook
 from dalembert.answer.column import WORD
 from dalembert.answer.equality import equal
+from dalembert.model.library import template
 from tests.answers.every_answer import made
 
 NAN = float("nan")
@@ -84,3 +86,27 @@ def test_a_file_that_exists_is_kept_unless_it_may_be_overwritten(way: str, tmp_p
     write(path, overwrite=True)
     assert path.read_bytes() != b"mine"
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
+
+
+PARTS: dict[str, tuple[str, str, Any, Callable[[da.Result], Any]]] = {
+    "shoe": ("block_brake", "loads.force.value", [0.0, -300.0], lambda r: r.brake("lining")),
+    "disc": ("plate_clutch", "joints.plates.force", 500.0, lambda r: r.brake("plates")),
+    "belt": ("belt_drive", "loads.work.value", -9.0, lambda r: r.belt("belt")),
+    "limit of a belt": ("belt_drive", "joints.belt.tension", 300.0, lambda r: r.belt("belt").limit),
+    "rope": ("hoist", "links.block.mass", 200.0, lambda r: r.rope("rope")),
+    "contact": ("disc_cam", "links.follower.mass", 0.7, lambda r: r.contact("F")),
+    "virtual work": ("four_bar", "loads.torque.value", -9.0, da.virtual_work),
+    "superposition": ("four_bar", "loads.torque.value", -9.0, da.superposition),
+    "forces inside": ("four_bar", "links.rocker.mass", 0.5, lambda r: da.member_forces(r, "rocker")),
+}
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_what_an_answer_is_asked_for_is_compared_with_its_like(name: str) -> None:
+    """Equal where all its numbers are, NaN as NaN; unequal, and no error, where one of them is another."""
+    model, path, value, part = PARTS[name]
+    m = template(model)
+    r, other = da.dynamics(m), da.dynamics(m.with_values({path: value}))
+    assert part(r) == part(r)
+    assert part(r) != part(other)
+    assert part(r) != name

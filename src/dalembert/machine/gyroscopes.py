@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.inertia_couples import turning
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.bounds import require
 from dalembert.errors import ModelError
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-@dataclass(frozen=True)
-class Gyroscopic:
+@dataclass(frozen=True, eq=False)
+class Gyroscopic(Compared):
     """Spin (P,) of a rotor about its axis (P, 3), precession (P, 3) of its carrier across it, rad/s, and the couple.
 
     ``couple`` (P, 3), N m, is C = I_s w_s (w_p x e) on the rotor; the frame takes -C. ``exact`` (P, 3): the total rate

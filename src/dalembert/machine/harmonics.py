@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.bounds import require
 from dalembert.errors import ModelError
@@ -20,8 +21,8 @@ EVEN = 1e-9
 """Part of a step that even positions may be off."""
 
 
-@dataclass(frozen=True)
-class Harmonics:
+@dataclass(frozen=True, eq=False)
+class Harmonics(Compared):
     """Coefficients (K,) or (K, d) of some orders; a period of several turns has fractional orders.
 
     ``cosine`` a_k and ``sine`` b_k; the mean of order 0 is in ``cosine``. ``turns``: the period in turns. ``aliasing``:

@@ -56,11 +56,11 @@ class FreeTiming(TargetErrors):
             )
         q = m.schedule(over_a_turn(m)).position if positions is None else drive_values(m, positions)
         q = k.course(q).schedule.position[:, 0]
-        step = (q[-1] - q[0]) / max(len(q) - 1, 1)
+        sense = np.sign(q[-1] - q[0])
         target, spread = wanted(k, targets, None)
         closed = bool(m.drives[drives[0]].turns and goes_round(q))
         count = max(STATIONS, 6 * len(target))
-        ends = (q[0], q[0] + np.sign(step) * TURN) if closed else (q[0], q[-1])
+        ends = (q[0], q[0] + sense * TURN) if closed else (q[0], q[-1])
         samples = OwnPositions(k, np.linspace(*ends, count, endpoint=not closed))
         return cls(
             k,
@@ -70,7 +70,7 @@ class FreeTiming(TargetErrors):
             spread,
             samples.stations[:, None],
             samples,
-            float(np.sign(step) or 1.0),
+            float(sense or 1.0),
             closed,
         )
 

@@ -14,6 +14,7 @@ import numpy as np
 from dalembert.analysis.compile.contacts import coefficient, resting_coefficient
 from dalembert.analysis.friction.self_help import self_help
 from dalembert.analysis.methods.applied_forces import link_speed
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.model.joints.elements.brakes import OnDrum, Shoe
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-@dataclass(frozen=True)
-class Brake:
+@dataclass(frozen=True, eq=False)
+class Brake(Compared):
     """A brake or clutch at every position (P,), SI; NaN at positions without an answer.
 
     torque: size of the couple of friction about the drum's axis, N m; force: normal force of a shoe, mean tension of a
@@ -48,7 +49,7 @@ class Brake:
     coefficient: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ShoeBrake(Brake):
     """A shoe; normal_moment, friction_moment (P,): moments of its normal and friction forces about its pivot, as
     magnitudes, N m; ``place``: angle of the greatest pressure from the line from drum axis to pivot, rad."""
@@ -58,7 +59,7 @@ class ShoeBrake(Brake):
     place: float = math.nan
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BandBrake(Brake):
     """A band; tight, slack (P,): its tensions, N; ratio (P,) of them; ``wrap``: its angle on the drum, rad."""
 
@@ -68,7 +69,7 @@ class BandBrake(Brake):
     wrap: float = math.nan
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FaceBrake(Brake):
     """Discs or a cone; friction_radius, m: couple of a face over mu times its force; force_radius, m: where the force
     of a pad acts, 0 for a complete ring; oil (P,): pressure in its cylinder, Pa; push_in, draw_off (P,): forces to

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 
@@ -20,8 +21,8 @@ NOTHING = 1e-9
 """A power, or an efficiency, below this part of the total is rounding."""
 
 
-@dataclass(frozen=True)
-class Efficiency:
+@dataclass(frozen=True, eq=False)
+class Efficiency(Compared):
     """Efficiency of a machine with friction.
 
     At a reversal forward and reverse are those just before it.

@@ -17,6 +17,7 @@ from dalembert.analysis.friction.joint_friction import (
     friction_of,
 )
 from dalembert.analysis.plane_only import refuse_space
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.model import GROUND
 
@@ -27,16 +28,16 @@ NOTHING = 1e-9
 """A force below this part of the largest on the mechanism does not count."""
 
 
-@dataclass(frozen=True)
-class ActionLine:
+@dataclass(frozen=True, eq=False)
+class ActionLine(Compared):
     """A line in ground axes: a point (P, 2) and a unit vector (P, 2)."""
 
     point: Array
     direction: Array
 
 
-@dataclass(frozen=True)
-class FrictionCircle:
+@dataclass(frozen=True, eq=False)
+class FrictionCircle(Compared):
     """The friction circle of a pin and the line of its reaction.
 
     center (P, 2), radius; radii (P,): with the coefficient at rest where the sense is not known; taken: the line on
@@ -53,8 +54,8 @@ class FrictionCircle:
     reasons: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class TwoPins:
+@dataclass(frozen=True, eq=False)
+class TwoPins(Compared):
     """A link that two pins alone load: the link, both joints, and its pull (P,), negative in compression."""
 
     link: str

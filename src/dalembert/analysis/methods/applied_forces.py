@@ -14,6 +14,7 @@ from dalembert.analysis.methods.band_actions import has_strands, on_drum
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.kept import kept
 from dalembert.analysis.result.reaction_axes import force_and_moment
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import system
 from dalembert.core.equilibrium import LinkMotions, known_sources, motion
@@ -30,8 +31,8 @@ if TYPE_CHECKING:
 Kind = Literal["joint", "friction", "effort", "load", "weight", "spring", "damper", "inertia"]
 
 
-@dataclass(frozen=True)
-class Action:
+@dataclass(frozen=True, eq=False)
+class Action(Compared):
     """A force (P, d) at a point (P, d) and a couple (P,), in space (P, 3), on a link, all in ground axes.
 
     ``source`` is the contribution it belongs to in a superposition, empty for joints' reactions; ``by`` the link that

@@ -15,6 +15,7 @@ from dalembert.analysis.methods.rope_forces import held_result
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.status.slipping_belts import Strands, limit_difference, strands
 from dalembert.analysis.status.slipping_ropes import rope_lines
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.joints.elements.belts import Belt
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-@dataclass(frozen=True)
-class BeltLimit:
+@dataclass(frozen=True, eq=False)
+class BeltLimit(Compared):
     """Belt on the point of slipping (P,): both tensions, N, the torques (P, 2) on the wheels of i and j, N m, and the
     power, W; infinite without a limit. best_speed: of the belt, m/s, at which the power at the limit is
     greatest, and that power; infinite without mass."""
@@ -38,8 +39,8 @@ class BeltLimit:
     best_power: float
 
 
-@dataclass(frozen=True)
-class BeltForces:
+@dataclass(frozen=True, eq=False)
+class BeltForces(Compared):
     """Belt or chain at every position (P,).
 
     length (m) and wrap (2,), radians on the wheels of i and j, at the first solved position; tight, slack: tensions

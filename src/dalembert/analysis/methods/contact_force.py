@@ -15,6 +15,7 @@ from dalembert.analysis.compile.pushing_contacts import with_held_contacts
 from dalembert.analysis.methods.cam_contacts import cam_contact, is_cam, normal_force
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.joint_freedoms import full_pose
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.core.elements.pushing import LOST, contact_forces, forces_at_speed, rounding
 from dalembert.errors import ModelError
@@ -31,8 +32,8 @@ ROUNDS, EXACT = 12, 1e-12
 """Secants to the place where a force passes a limit, and the part of the force that ends them."""
 
 
-@dataclass(frozen=True)
-class ContactHistory:
+@dataclass(frozen=True, eq=False)
+class ContactHistory(Compared):
     """Normal force of a joint whose ``contact`` pushes or pulls, at every position (P,), N.
 
     needed (P,): the force as if the contact could also pull, below 0 where it is lost (``force`` is NaN). behind,

@@ -27,6 +27,7 @@ from dalembert.analysis.methods.applied_forces import (
 from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 
 if TYPE_CHECKING:
@@ -38,8 +39,8 @@ ZERO = "zero-force"
 """Class of a link without forces at any position."""
 
 
-@dataclass(frozen=True)
-class Member:
+@dataclass(frozen=True, eq=False)
+class Member(Compared):
     """A link's class: what acts on it, and for a two-force member its tension (P,), negative in compression.
 
     ``forces`` and ``couples`` name what acts: joints, loads, `weight`, `inertia`; of a zero-force member ``forces``
@@ -101,8 +102,8 @@ class SolutionStep:
     why: str
 
 
-@dataclass(frozen=True)
-class Displaced:
+@dataclass(frozen=True, eq=False)
+class Displaced(Compared):
     """Inertia force (P, 2) of a link moved off its mass centre so that it makes the inertia couple too.
 
     ``offset`` h = I alpha / F (P,) and ``at`` a point of its line of action (P, 2).

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.status.slipping_ropes import rope_lines
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.wording import closest
@@ -18,8 +19,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-@dataclass(frozen=True)
-class RopeForces:
+@dataclass(frozen=True, eq=False)
+class RopeForces(Compared):
     """Rope at every position (P,).
 
     tension (P, S): of its strands in their order, N, below 0 where it would have to push; direction (P, S, 2): along

@@ -15,6 +15,7 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import Action, State, known_actions, state
 from dalembert.analysis.methods.belt_tensions import belt_tensions
 from dalembert.analysis.result.reaction_axes import force_and_moment
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.core.elements.belt_pulls import BeltPulls
 from dalembert.core.equilibrium import balance, reactions, relative
@@ -41,8 +42,8 @@ def directions(parts: Array) -> Array:
     return np.asarray(np.where(size > 1e-12 * size.max(initial=0.0), np.arctan2(y, x), np.nan))
 
 
-@dataclass(frozen=True)
-class Superposition:
+@dataclass(frozen=True, eq=False)
+class Superposition(Compared):
     """Parts of the answer, one per source, that sum to the total; ``sources`` is the order of the arrays' first
     axis."""
 

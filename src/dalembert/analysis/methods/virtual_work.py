@@ -22,6 +22,7 @@ from dalembert.analysis.methods.applied_forces import (
     state,
 )
 from dalembert.analysis.methods.belt_tensions import tension_actions
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import load_rows, relative
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-@dataclass(frozen=True)
-class VirtualWork:
+@dataclass(frozen=True, eq=False)
+class VirtualWork(Compared):
     """Efforts (P, D) and unknown loads (P, U) by virtual work, and what they came from.
 
     For action a of ``actions`` and drive d at unit speed: velocity of its point (A, P, D, d), spin of its link

@@ -17,6 +17,7 @@ import numpy as np
 from dalembert.algebra.plane import across
 from dalembert.analysis.methods.applied_forces import link_place
 from dalembert.analysis.plane_only import refuse_space
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.output.sizes_over_cycle import greatest
@@ -40,8 +41,8 @@ class EngineCylinder(NamedTuple):
     axis: str
 
 
-@dataclass(frozen=True)
-class EngineSeries:
+@dataclass(frozen=True, eq=False)
+class EngineSeries(Compared):
     """Force and couple (P, 2) of the inertia by the book's two harmonics, and exact.
 
     >>> import dalembert as da

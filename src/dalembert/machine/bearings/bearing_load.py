@@ -16,6 +16,7 @@ import numpy as np
 
 from dalembert.analysis.friction.bearing_ends import bearing_axis
 from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Ints
 from dalembert.bounds import require
 from dalembert.errors import ModelError
@@ -32,8 +33,8 @@ STILL = 1e-12
 """Part of the links' speeds below which the turn of one relative to the other is rounding."""
 
 
-@dataclass(frozen=True)
-class BearingLoad:
+@dataclass(frozen=True, eq=False)
+class BearingLoad(Compared):
     """Forces (P,) of a joint across its axis and along it, N, and its turning (P,), rad/s, of j against i.
 
     ``couple`` (P,), N m: across the axis, not counted in these loads: it needs two bearings. ``time`` (P,), s: duration

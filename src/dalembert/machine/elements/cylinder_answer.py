@@ -16,6 +16,7 @@ from dalembert.analysis.methods.elements.cylinder_quantities import (
     hydraulic_force,
     pressures,
 )
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, first_largest
 from dalembert.errors import ModelError
 from dalembert.machine.elements.stepped_column import critical_load, euler
@@ -29,8 +30,8 @@ ATMOSPHERE = 101325.0
 """Pressure of the air, Pa: no gauge pressure is lower than its opposite."""
 
 
-@dataclass(frozen=True)
-class CylinderAnswer:
+@dataclass(frozen=True, eq=False)
+class CylinderAnswer(Compared):
     """A cylinder along a result, arrays (P,) in SI; gauge pressures, a force that pushes its points apart is positive.
 
     force: of its rod; cap_pressure, rod_pressure: of both chambers, NaN without a force; flow_in, flow_out:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.errors import AnalysisError
 from dalembert.machine.flywheel.legendre_panels import Panels
@@ -21,8 +22,8 @@ from dalembert.machine.flywheel.turning_moment import TurningMoment
 STAYS, MOST_ROUNDS = 1e-12, 60
 
 
-@dataclass(frozen=True)
-class SpeedFluctuation:
+@dataclass(frozen=True, eq=False)
+class SpeedFluctuation(Compared):
     """Speeds (K, n) at the points of panels over a period; least and greatest with their angles; C_s of these.
 
     ``torque``: the constant driving torque T_m. ``residual``: difference of the torque of the computed motion,

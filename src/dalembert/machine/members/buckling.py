@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Ints, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.members.column_loads import critical_load, effective_length, johnson, within
@@ -30,8 +31,8 @@ COUPLED = 1e-9
 """Below the load of either plane alone by more than this part, a column bends in both planes together."""
 
 
-@dataclass(frozen=True)
-class Buckling:
+@dataclass(frozen=True, eq=False)
+class Buckling(Compared):
     """Critical compression of a link, N, by `Euler` or `Johnson`, beside its compression where the safety is least.
 
     ``effective_length`` (K in the plane of the mechanism, K across it; in space of bending along the member's y, and

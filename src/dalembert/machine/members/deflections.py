@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Tree, first_largest
 from dalembert.errors import ModelError
 from dalembert.machine.members.end_conditions import carrying_joints
@@ -32,8 +33,8 @@ SAMPLES, ROUNDS = 33, 4
 """Places on each piece of a member where the deflection is looked at, and how often, closer about the greatest."""
 
 
-@dataclass(frozen=True)
-class DeflectedMember:
+@dataclass(frozen=True, eq=False)
+class DeflectedMember(Compared):
     """Deflection of one member; ``supports``: joints that its line goes through, ``places`` (P, 1 or 2), m."""
 
     curve: MemberCurve = field(repr=False)
@@ -107,8 +108,8 @@ class DeflectedMember:
         return b[i, piece] + a[i, piece] * s + (twice[i, piece] * x ** (n + 2)).sum(axis=-1), turned
 
 
-@dataclass(frozen=True)
-class Deflections:
+@dataclass(frozen=True, eq=False)
+class Deflections(Compared):
     """Deflections of a link's members; ``greatest`` (P,), m, of all with its member and place (P,), m."""
 
     forces: MemberForces = field(repr=False)

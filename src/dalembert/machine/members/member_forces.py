@@ -17,6 +17,7 @@ import numpy as np
 
 from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.answer.column import Column, Scale
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Flags, Tree, first_largest
 from dalembert.core.equilibrium import UNIQUE
 from dalembert.errors import ModelError
@@ -43,8 +44,8 @@ def kind_of(of: str) -> str:
     return "force" if ORDER.index(of) < 3 else "moment"
 
 
-@dataclass(frozen=True)
-class MemberCurve:
+@dataclass(frozen=True, eq=False)
+class MemberCurve(Compared):
     """Inner forces of one straight member: ``edges`` (P, J + 1), m, and cubics (P, J, 6, 4) in s between them."""
 
     member: Straight
@@ -109,8 +110,8 @@ def _stationary(c: Array) -> tuple[Array, Array]:
         return q / a, k / q
 
 
-@dataclass(frozen=True)
-class MemberForces:
+@dataclass(frozen=True, eq=False)
+class MemberForces(Compared):
     """Internal forces of a link: a curve for each straight member; ``residual`` (P,), the equilibrium error.
 
     ``residual``: force and moment that do not close at the end, over the largest on the link, or over 1e-12 of the

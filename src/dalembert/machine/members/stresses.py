@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.output.rounding import PART
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Tree, first_largest
 from dalembert.errors import ModelError
 from dalembert.machine.link_axes import in_space
@@ -53,8 +54,8 @@ class Fatigue:
     sampling: float = math.nan
 
 
-@dataclass(frozen=True)
-class Stresses:
+@dataclass(frozen=True, eq=False)
+class Stresses(Compared):
     """Greatest von Mises stress (P,) of a link, Pa, with its member and place (P,), m; ``normal`` (P,) is sigma at that
     place.
 

@@ -11,12 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.model.drives.motors import MotorCurve
 
 
-@dataclass(frozen=True)
-class MotorUse:
+@dataclass(frozen=True, eq=False)
+class MotorUse(Compared):
     """A motor at the instants of a motion, arrays (T,) in SI, on the motor's shaft.
 
     speed: rad/s, or m/s where it drives a slide without a gear; torque: of its curve, N m or N; gear_torque: what its

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.units import quantity
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
 NAN = float("nan")
 
 
-@dataclass(frozen=True)
-class OneWayAnswer:
+@dataclass(frozen=True, eq=False)
+class OneWayAnswer(Compared):
     """A one-way clutch or a ratchet along a result, arrays (P,) in SI; NaN what its description does not give.
 
     couple: on j, N m, in the free sense, 0 where it freewheels; roller_force: normal force of a roller at the ring,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Numeric
 from dalembert.core.branchless import sign
 from dalembert.errors import ModelError
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 
-@dataclass(frozen=True)
-class ScrewAnswer:
+@dataclass(frozen=True, eq=False)
+class ScrewAnswer(Compared):
     """A screw along a result, arrays (P,) in SI, positive with the slide.
 
     force: on the nut, N; torque: of the screw, N m, at rest that without friction; torque_low, torque_high: at rest the

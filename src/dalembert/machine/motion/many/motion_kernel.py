@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.checked_input import numbers
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
@@ -30,8 +31,8 @@ ROWS = {"effort": 0, "motor.stall": 0, "motor.no_load": 1, "position": 3, "speed
 of a prescribed drive, position and speed at time 0, brake."""
 
 
-@dataclass(frozen=True)
-class MotionBatch:
+@dataclass(frozen=True, eq=False)
+class MotionBatch(Compared):
     """Motions of many designs: ``arrays`` by output, (design, instant[, component]), or without instants if reduced.
 
     ``time`` (design,): when each ended, s; ``ended``: by which condition; ``position``, ``speed`` (design, drive) at
