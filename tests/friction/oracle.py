@@ -167,10 +167,10 @@ class _Problem:
         return ((self.residual(x + unit, s) - self.residual(x - unit, s)) / (2 * h)).T
 
     def solved(self, x: Array, s: float) -> Array | None:
-        """Newton from x; None where it does not arrive in a few steps."""
+        """Newton from x; None where it does not arrive in a few steps, within what the terms of its sums round."""
         for _ in range(12):
             off = self.residual(x, s)
-            if np.max(np.abs(off)) <= 1e-12 * max(float(np.max(np.abs(x))), 1e-12):
+            if np.max(np.abs(off)) <= 1e-12 * max(float(np.max(np.abs(self.A) @ np.abs(x))), 1e-12):
                 return x
             try:
                 x = x - np.linalg.solve(self.jacobian(x, s), off)
