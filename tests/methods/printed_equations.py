@@ -27,7 +27,8 @@ SLACK = 1.1
 
 LEADS = {
     r"F\b(?!_)|cos θ|x R_y|e_\d+$": "",
-    r"R$|R_[xyz]$|R · M": "force",
+    r"R$|R_[xyz]$": "force",
+    r"R · M": "force and moment",
     r"\(?T_1\)?/\(?T_2": "",
     r"[dpr]$": "arm|length",
     r"M$": "moment",
@@ -58,6 +59,8 @@ def printed_units(units: Any) -> dict[str, str]:
     texts = {kind: RATES[kind] if units.refuses_bare(kind) else units.text(kind) for kind in KINDS}
     signs = (("*", "·"), ("^2", "²"), ("^3", "³"), ("deg", "°"))
     printed = {kind: reduce(lambda t, sign: t.replace(*sign), signs, text) for kind, text in texts.items()}
+    force, factors = printed["force"], printed["moment"].split("·")
+    printed["force and moment"] = "·".join(f"{unit}²" if unit == force else unit for unit in factors)
     arm = re.sub(rf"{printed['force']}·|·{printed['force']}", "", printed["moment"])
     rolling = f"{printed['length']}/s"  # radii times radians
     own = {"angle": "°", "angle_of_drive": printed["angle"]}
