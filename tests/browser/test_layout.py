@@ -62,6 +62,25 @@ def test_the_drawing_fills_the_window_and_its_scale_is_true(opened: Any, width: 
     assert small == []
 
 
+def test_the_window_may_change_while_a_handle_is_held(opened: Any) -> None:
+    """The point on each curve goes on being drawn, at its value, before the curves follow."""
+    page, script = opened(FOUR_BAR), "[...document.querySelectorAll('.chart circle')].map(e => +e.getAttribute('cx'))"
+    x, y = page.place('.handle[data-name="O4"]')
+    page.page.mouse.move(x, y)
+    page.page.mouse.down()
+    page.page.mouse.move(x + 6, y + 4)
+    before = page.run(script)
+    for width in (1000, 1400, 1100):  # with no time between the change and the frame
+        page.page.set_viewport_size({"width": width, "height": 700})
+        page.page.mouse.move(x + width / 200, y + 3)
+    page.page.mouse.up()
+    resize(page, 1100, 700)
+    after = page.run(script)
+    assert before
+    assert all(map(math.isfinite, after))
+    assert after != before
+
+
 def test_the_scale_is_true_after_a_drag_and_for_a_zoomed_page(opened: Any) -> None:
     page = opened(FOUR_BAR, device_scale_factor=2)
     page.drag('.handle[data-name="O4"]', 90, 10)

@@ -56,7 +56,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     const v = kernel.value(x.row, k) / unit.size;
     return Math.abs(v) * unit.size < least ? 0 : v;
   };
-  let low = NaN, high = NaN, by = 1;
+  let low = NaN, high = NaN, by = 1, resized = true;
   const at = (k: number): number => x0 + (k / last) * w, up = (v: number): number => y0 + h - ((v - low) / (high - low)) * h;
 
   /** From tick to tick, so that the scale is constant while curves move a little; true if it has changed. */
@@ -77,8 +77,8 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     if (u - l < 1e-9 * Math.max(Math.abs(u), Math.abs(l), 1e-9)) [l, u] = [Math.min(l, 0), Math.max(u, 0) || 1];
     by = step(u - l, 4);
     [l, u] = [Math.floor(l / by + 1e-9) * by, Math.ceil(u / by - 1e-9) * by];
-    if (l === low && u === high) return false;
-    [low, high] = [l, u];
+    if (l === low && u === high && !resized) return false;
+    [low, high, resized] = [l, u, false];
     return true;
   }
 
@@ -110,7 +110,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     [w, x0] = [W - LEFT - Math.min(Math.max(...names) + 4, 0.3 * W), -W / 2 + LEFT];
     svg.setAttribute("viewBox", `${-W / 2} ${-H / 2} ${W} ${H}`);
     keys.forEach((t) => t.setAttribute("x", short(x0 + w + 2)));
-    low = NaN;
+    resized = true;
   }
   resize(W);
   const move = (e: PointerEvent) => cursor.seek(((pointer(svg, e)[0] - x0) / w) * last);
@@ -134,8 +134,8 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
       const x = short(at(Math.min(cursor.time(), last)));
       attr(now, "d", `M${x} ${y0}v${h}`);
       c.curves.forEach((one, n) => {
-        const place: Record<string, string> = kernel.solved ? { cx: x, cy: short(up(kernel.here[one.row] / unit.size)) } : {};
-        set(dots[n], { visibility: kernel.solved ? "visible" : "hidden", ...place });
+        const y = kernel.solved ? up(kernel.here[one.row] / unit.size) : NaN, seen = Number.isFinite(y);
+        set(dots[n], { visibility: seen ? "visible" : "hidden", ...(seen && { cx: x, cy: short(y) }) });
         keys[n].classList.toggle("picked", cursor.picked() === one);
       });
     },

@@ -606,7 +606,7 @@ var U = class e {
 	at(e, t = 0) {
 		return this.out[e * this.row + t];
 	}
-}, ee = {
+}, W = {
 	joint: 0,
 	point: 0,
 	tracer: 0,
@@ -615,14 +615,14 @@ var U = class e {
 	direction: 1,
 	link: 4,
 	trace: 5
-}, W = (e) => {
+}, G = (e) => {
 	let t = e.indexOf(":");
 	return {
 		kind: e.slice(0, t),
 		name: e.slice(t + 1)
 	};
-}, te = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
-function ne(e, t, n, r = 6) {
+}, ee = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
+function te(e, t, n, r = 6) {
 	let i = e.getRootNode(), a = /* @__PURE__ */ new Map();
 	return [
 		0,
@@ -633,40 +633,40 @@ function ne(e, t, n, r = 6) {
 			let l = c * Math.PI / 4;
 			for (let c of i.elementsFromPoint(t + o * r * Math.cos(l), n + o * r * Math.sin(l))) {
 				let t = e.contains(c) && c.closest("[data-item]")?.dataset.item;
-				t && !a.has(t) && a.set(t, 2 * s + (ee[W(t).kind] ?? 2));
+				t && !a.has(t) && a.set(t, 2 * s + (W[G(t).kind] ?? 2));
 			}
 		}
-	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => W(e));
+	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => G(e));
 }
-function re(e, t) {
+function ne(e, t) {
 	e.querySelectorAll(".chosen").forEach((e) => e.classList.remove("chosen")), t && e.querySelectorAll(`[data-item="${CSS.escape(`${t.kind}:${t.name}`)}"]`).forEach((e) => e.classList.add("chosen"));
 }
 // src/pull.ts
-var ie = 1 / 10;
-function ae(e, t) {
+var re = 1 / 10;
+function ie(e, t) {
 	if (!t) return -1;
-	let { kind: n, name: r } = W(t), { links: i, rows: a } = e.sketch;
+	let { kind: n, name: r } = G(t), { links: i, rows: a } = e.sketch;
 	return n === "link" || n === "center" ? i.indexOf(r) : (n === "joint" ? a.find((e) => e.joint === r)?.ends : void 0)?.find((e) => e < i.length) ?? -1;
 }
-function oe(e, t, n) {
-	for (let { kind: r, name: i } of ne(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
+function ae(e, t, n) {
+	for (let { kind: r, name: i } of te(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
 		let e = n(`${r}:${i}`);
 		if (e >= 0) return e;
 	}
 	return -1;
 }
-function se(e, t, n, r, i) {
+function oe(e, t, n, r, i) {
 	if (n.count < 2) return;
 	let a = -1, o = [];
 	e.svg.addEventListener("pointerdown", (n) => {
-		a = n.button === 0 ? oe(e.svg, n, (e) => ae(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, l(e.svg, n)));
+		a = n.button === 0 ? ae(e.svg, n, (e) => ie(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, l(e.svg, n)));
 	}), e.svg.addEventListener("pointermove", (t) => {
 		a >= 0 && e.svg.hasPointerCapture(t.pointerId) && i.seek(c(l(e.svg, t)));
 	});
 	let s = () => void (a = -1);
 	e.svg.addEventListener("pointerup", s), e.svg.addEventListener("pointercancel", s);
 	function c(t) {
-		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * ie)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
+		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * re)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
 		for (let e = Math.floor(l) - u; e <= Math.floor(l) + u; e++) {
 			if (!c && (e < 0 || e + 1 >= s)) continue;
 			let [n, r] = [e, e + 1].map((e) => (e % s + s) % s), [i, a] = [m(n), m(r)];
@@ -678,16 +678,16 @@ function se(e, t, n, r, i) {
 	}
 }
 // src/pulling.ts
-var ce = 12, le = 1e6, G = .001, ue = 1e-5, K = 1e6, de = .5, q = 6, fe = 100, J = .2, pe = class extends A {
+var se = 12, ce = 1e6, le = .001, ue = 1e-5, K = 1e6, de = .5, q = 6, fe = 100, J = .2, pe = class extends A {
 	pose;
 	closed = !1;
 	away = 0;
-	damping = G;
+	damping = le;
 	constructor(e, t, n) {
 		super(e, t), this.pose = n, this.placed(n);
 	}
 	placed(e) {
-		this.data.rows.forEach((t, n) => t.kind === "phase" && (this.hold[n] = this.measure(n, e))), this.pose = e, this.damping = G, this.closed = this.gap(e) <= b;
+		this.data.rows.forEach((t, n) => t.kind === "phase" && (this.hold[n] = this.measure(n, e))), this.pose = e, this.damping = le, this.closed = this.gap(e) <= b;
 	}
 	lock(e, t) {
 		this.active[e] = +t, this.hold[e] = this.measure(e, this.pose);
@@ -726,7 +726,7 @@ var ce = 12, le = 1e6, G = .001, ue = 1e-5, K = 1e6, de = .5, q = 6, fe = 100, J
 		if (!this.closed) return this.gather(e, t);
 		if (!e) return "there";
 		this.away = this.far(e, t, this.pose);
-		for (let r = 0; r < ce; r++) {
+		for (let r = 0; r < se; r++) {
 			if (this.away < n) return this.ended("there");
 			let r = this.step(e, t, n);
 			if (!r) return this.ended("nearest");
@@ -736,12 +736,12 @@ var ce = 12, le = 1e6, G = .001, ue = 1e-5, K = 1e6, de = .5, q = 6, fe = 100, J
 		return "on the way";
 	}
 	ended(e) {
-		return this.damping = G, e;
+		return this.damping = le, e;
 	}
 	step(e, t, n) {
 		let { pose: r, data: i } = this, a = Math.min(1, de / this.away), o = this.at(e).map((e, n) => a * (t[n] - e) / i.length);
 		for (let i = 0; i < q; i++) {
-			this.gap(r), this.weight.fill(le), this.fill(this.damping), this.weight.fill(1), this.pull(e, r, o);
+			this.gap(r), this.weight.fill(ce), this.fill(this.damping), this.weight.fill(1), this.pull(e, r, o);
 			let i = this.answer();
 			if (!(i >= n / 10)) return null;
 			let a = this.correct(this.moved(r, Math.min(1, S / i)), .5 * Math.min(i, S) + 1e-9, 8)?.pose;
@@ -755,7 +755,7 @@ var ce = 12, le = 1e6, G = .001, ue = 1e-5, K = 1e6, de = .5, q = 6, fe = 100, J
 			let r = this.gap(n), i = this.missing.reduce((e, t, n) => e + (this.active[n] ? fe * t * t : 0), 0);
 			return Number.isFinite(r) ? i + (e ? this.far(e, t, n) ** 2 : 0) : Infinity;
 		}, r = Math.max(this.damping, .01), i = n(this.pose);
-		for (let a = 0; a < ce && r < 1e8; a++) {
+		for (let a = 0; a < se && r < 1e8; a++) {
 			this.gap(this.pose), this.weight.fill(fe), this.fill(r), this.weight.fill(1), e && this.pull(e, this.pose, this.at(e).map((e, n) => (t[n] - e) / this.data.length));
 			let a = this.answer(), o = this.moved(this.pose, Math.min(1, S / a)), s = n(o);
 			if (!(s < i)) {
@@ -1806,7 +1806,7 @@ function pt(t, i, a, o, s, c, l, u, d, f = []) {
 			e > t && (t = e + 5);
 		}
 	}
-	function ee() {
+	function W() {
 		let t = new _e([
 			-s / 2,
 			-c / 2,
@@ -1839,13 +1839,13 @@ function pt(t, i, a, o, s, c, l, u, d, f = []) {
 			});
 		}
 	}
-	function* W() {
+	function* G() {
 		for (let e of g) e.update(), yield;
 	}
 	return {
 		svg: m,
 		paper: h,
-		parts: W,
+		parts: G,
 		fit: z,
 		need: R,
 		look: H,
@@ -1856,14 +1856,14 @@ function pt(t, i, a, o, s, c, l, u, d, f = []) {
 			[s, c] = [e, t], m.setAttribute("viewBox", `${-s / 2} ${-c / 2} ${s} ${c}`);
 		},
 		update(e) {
-			if (h.values = y("values"), n(S, { display: y("traces") ? "inline" : "none" }), e && Ge(W()), n(w, { visibility: i.solved ? "visible" : "hidden" }), U(), i.finite) {
+			if (h.values = y("values"), n(S, { display: y("traces") ? "inline" : "none" }), e && Ge(G()), n(w, { visibility: i.solved ? "visible" : "hidden" }), U(), i.finite) {
 				o && (h.middle = P(I((e) => i.here[e]) ?? {
 					x: [0, 0],
 					y: [0, 0]
 				}));
 				for (let e of _) e.update();
 				for (let { a: e, layer: t } of E) y(t) ? e.update() : e.hide();
-				ee();
+				W();
 			}
 		}
 	};
@@ -1962,19 +1962,19 @@ var yt = 3.6, bt = 5.2, xt = 550, St = 8;
 function Ct(e, t, n, a, o, s) {
 	let c = i("div", e, { class: "paper" }), u = pt(c, t, n, null, 170, 119, a, "the mechanism", o, s.rates ?? []), { svg: d } = u, f = r("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
 		let t = e.target.closest("[data-item]")?.dataset.item;
-		return t ? W(t) : null;
+		return t ? G(t) : null;
 	}, h = (e) => !v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6).some(s.held), g = () => {
 		s.on?.({
 			type: "view",
 			view: o
 		}), s.again(!0);
-	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => ne(d, e, t, n), y = vt(u, o, !!s.full, h, _, g);
+	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => te(d, e, t, n), y = vt(u, o, !!s.full, h, _, g);
 	p && (d.style.cursor = "move");
 	let b = (e, t) => u.paper.metres(l(d, {
 		clientX: e,
 		clientY: t
 	})), x = (e) => {
-		o.chosen = e, re(d, e), s.chosen(e);
+		o.chosen = e, ne(d, e), s.chosen(e);
 	}, S = (e) => [e.clientX, e.clientY];
 	d.addEventListener("click", (e) => {
 		let t = v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6), n = t.length ? t : m(e) ? [m(e)] : [];
@@ -1983,7 +1983,7 @@ function Ct(e, t, n, a, o, s) {
 			items: n,
 			at: S(e),
 			point: b(e.clientX, e.clientY)
-		}) || x(n[0] && !te(n[0], o.chosen) ? n[0] : null);
+		}) || x(n[0] && !ee(n[0], o.chosen) ? n[0] : null);
 	});
 	let C = (t, n) => {
 		let r = b(...n);
@@ -2325,14 +2325,14 @@ async function Gt(e, t, c, u) {
 	}), I = Ct(F, g, t.views.mechanism, t.units, c, {
 		full: u.full,
 		on: u.on,
-		entries: se,
+		entries: oe,
 		chosen: () => J(),
 		again: () => J(),
-		held: (e) => ne(`${e.kind}:${e.name}`) >= 0
-	}), { m: R, paper: z } = I, B = v(R, t, g), V = r("g", R.svg, { class: "handles" }), ee = r("g", R.svg, {
+		held: (e) => te(`${e.kind}:${e.name}`) >= 0
+	}), { m: R, paper: z } = I, B = v(R, t, g), V = r("g", R.svg, { class: "handles" }), W = r("g", R.svg, {
 		class: "gaps",
 		"pointer-events": "none"
-	}), W = re().map(({ link: e, point: t, p: n }) => {
+	}), G = ne().map(({ link: e, point: t, p: n }) => {
 		let i = r("circle", V, {
 			class: "handle joint",
 			r: 2.2,
@@ -2364,24 +2364,24 @@ async function Gt(e, t, c, u) {
 			knob: i,
 			p: n
 		};
-	}), te = i("div", null, {
+	}), ee = i("div", null, {
 		class: "missing",
 		role: "status"
 	});
-	z.before(te), i("p", te, {}, t.missing.sentence[0].toUpperCase() + t.missing.sentence.slice(1) + ".");
-	for (let e of t.missing.offers) M(te, `+ ${e.said}`, e.page ? e.said : "add it and save the model file", () => void ce(e));
-	ie();
-	function ne(e) {
-		return e.startsWith("point:") ? p.links.indexOf(e.slice(6, e.lastIndexOf("."))) : ae(t, e);
+	z.before(ee), i("p", ee, {}, t.missing.sentence[0].toUpperCase() + t.missing.sentence.slice(1) + ".");
+	for (let e of t.missing.offers) M(ee, `+ ${e.said}`, e.page ? e.said : "add it and save the model file", () => void se(e));
+	re();
+	function te(e) {
+		return e.startsWith("point:") ? p.links.indexOf(e.slice(6, e.lastIndexOf("."))) : ie(t, e);
 	}
-	function re() {
+	function ne() {
 		let e = /* @__PURE__ */ new Set();
 		return t.points.filter(({ p: t }) => {
 			let n = t.map((e) => g.here[e].toFixed(9)).join();
 			return !e.has(n) && e.add(n);
 		});
 	}
-	function ie() {
+	function re() {
 		let e = i("div", F, { class: "switches" }), n = Bt(t.title);
 		Dt(e, I.view, c, !1, () => J()), Et(e, c, t.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => J());
 		let r = i("span", e, {
@@ -2389,24 +2389,24 @@ async function Gt(e, t, c, u) {
 			role: "group",
 			"aria-label": "save"
 		});
-		M(r, "Model file", "the file with the pose that is drawn", () => X(`${n}.yaml`, le(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${n}.svg`, Lt(R.svg, t.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void zt(R.svg, t.style.light).then((e) => X(`${n}.png`, e, "image/png")));
+		M(r, "Model file", "the file with the pose that is drawn", () => X(`${n}.yaml`, ce(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${n}.svg`, Lt(R.svg, t.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void zt(R.svg, t.style.light).then((e) => X(`${n}.png`, e, "image/png")));
 	}
-	function se(e) {
+	function oe(e) {
 		return e.flatMap(({ kind: e, name: t }) => p.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
 			said: `${_.locked(r) ? "Release" : "Lock"} the ${n.angular ? "turn" : "slide"} of ${t}`,
 			act: () => _.lock(r, !_.locked(r))
 		}] : []));
 	}
-	async function ce(e) {
+	async function se(e) {
 		if (!u.on?.({
 			type: "offer",
 			offer: e
 		})) {
 			if (!e.page) return X(`${Bt(t.title)}.yaml`, e.text, "text/yaml");
-			await u.taken(JSON.parse(new TextDecoder().decode(await H(e.page))), G());
+			await u.taken(JSON.parse(new TextDecoder().decode(await H(e.page))), le());
 		}
 	}
-	function le() {
+	function ce() {
 		let e = p.links.flatMap((e, t) => [
 			_.pose.point[2 * t],
 			_.pose.point[2 * t + 1],
@@ -2414,7 +2414,7 @@ async function Gt(e, t, c, u) {
 		]);
 		return t.text.replace(/@@(\d+)@@/g, (t, n) => String(e[+n]));
 	}
-	function G() {
+	function le() {
 		return Object.fromEntries(p.links.map((e, t) => [e, [
 			_.pose.point[2 * t],
 			_.pose.point[2 * t + 1],
@@ -2428,7 +2428,7 @@ async function Gt(e, t, c, u) {
 	function de() {
 		O !== _.pose && (S.push(O), S.length > Wt && S.shift(), C.length = 0), u.on?.({
 			type: "pose",
-			pose: G(),
+			pose: le(),
 			closed: _.closed
 		}), J();
 	}
@@ -2437,7 +2437,7 @@ async function Gt(e, t, c, u) {
 		n && (t.push(_.pose), _.placed(n), J());
 	}
 	R.svg.addEventListener("pointerdown", (e) => {
-		let t = e.button === 0 ? oe(R.svg, e, ne) : -1;
+		let t = e.button === 0 ? ae(R.svg, e, te) : -1;
 		if (t < 0) return;
 		R.svg.setPointerCapture(e.pointerId);
 		let n = l(R.svg, e);
@@ -2469,7 +2469,7 @@ async function Gt(e, t, c, u) {
 			E !== "on the way" && _.closed || (E = _.frame(w, T, ue())), (E === "on the way" || E === "apart" && e !== _.pose) && J();
 		}
 		g.show(_.pose), R.update(!0);
-		for (let { knob: e, p: t } of W) {
+		for (let { knob: e, p: t } of G) {
 			let [r, i] = R.paper.point(t);
 			n(e, {
 				cx: a(r),
@@ -2479,13 +2479,13 @@ async function Gt(e, t, c, u) {
 		B(), me(), [N.disabled, P.disabled] = [!S.length, !C.length];
 	}
 	function me() {
-		if (ee.replaceChildren(), !w || E !== "nearest" || _.away < 3 * ue()) return;
+		if (W.replaceChildren(), !w || E !== "nearest" || _.away < 3 * ue()) return;
 		let [e, i] = [_.at(w), T].map((e) => R.paper.of(...R.paper.project(e))), { unit: c, size: l } = t.units.length;
-		r("path", ee, {
+		r("path", W, {
 			class: "l-gap",
 			d: s([e, i]),
 			style: "fill:none"
-		}), n(h(ee, "gap", `${o(_.away * p.length / l, 3)} ${c} too far`, 3.3, i[0] < e[0] == i[1] < e[1] ? "start" : "end"), {
+		}), n(h(W, "gap", `${o(_.away * p.length / l, 3)} ${c} too far`, 3.3, i[0] < e[0] == i[1] < e[1] ? "start" : "end"), {
 			x: a((e[0] + i[0]) / 2 + (i[0] < e[0] == i[1] < e[1] ? 2.5 : -2.5)),
 			y: a((e[1] + i[1]) / 2 - 1.5)
 		});
@@ -2510,8 +2510,8 @@ async function Gt(e, t, c, u) {
 		},
 		set: () => void 0,
 		show: () => void 0,
-		text: le,
-		pose: G,
+		text: ce,
+		pose: le,
 		sketch: _,
 		remove: () => he.removeEventListener("keydown", ge)
 	};
@@ -3254,8 +3254,8 @@ function xn(t, s, c, d, f, p) {
 	}), N = (e, t) => {
 		let n = c.value(e.row, t) / g.size;
 		return Math.abs(n) * g.size < j ? 0 : n;
-	}, P = NaN, F = NaN, I = 1, L = (e) => C + e / A * S, R = (e) => x + b - (e - P) / (F - P) * b;
-	function* z() {
+	}, P = NaN, F = NaN, I = 1, L = !0, R = (e) => C + e / A * S, z = (e) => x + b - (e - P) / (F - P) * b;
+	function* B() {
 		let [e, t] = [Infinity, -Infinity];
 		for (let n of d.curves) {
 			for (let r = 0; r < c.count; r++) if (c.good[r]) {
@@ -3264,9 +3264,13 @@ function xn(t, s, c, d, f, p) {
 			}
 			yield;
 		}
-		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), I = vn(t - e, 4), [e, t] = [Math.floor(e / I + 1e-9) * I, Math.ceil(t / I - 1e-9) * I], e === P && t === F ? !1 : ([P, F] = [e, t], !0);
+		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), I = vn(t - e, 4), [e, t] = [Math.floor(e / I + 1e-9) * I, Math.ceil(t / I - 1e-9) * I], e === P && t === F && !L ? !1 : ([P, F, L] = [
+			e,
+			t,
+			!1
+		], !0);
 	}
-	function B() {
+	function V() {
 		let t = s.drives[0], n = (e, t, n, i) => r("text", E, {
 			class: "l-note-t",
 			"font-size": 2.6,
@@ -3276,7 +3280,7 @@ function xn(t, s, c, d, f, p) {
 		}).textContent = e;
 		E.replaceChildren();
 		let i = "";
-		for (let e of bn(P, F, I)) i += `M${C} ${a(R(e))}h${S}`, n(o(e, 5), C - 1.2, R(e) + .9, "end");
+		for (let e of bn(P, F, I)) i += `M${C} ${a(z(e))}h${S}`, n(o(e, 5), C - 1.2, z(e) + .9, "end");
 		if (t) {
 			let [e, r] = [0, A].map((e) => c.position(t.name, e) / t.size);
 			for (let s of bn(Math.min(e, r), Math.max(e, r), (t.unit === "°" ? yn : vn)(Math.abs(r - e), 6))) {
@@ -3285,35 +3289,35 @@ function xn(t, s, c, d, f, p) {
 			}
 			n(`${t.name}, ${t.unit}`, C + S, x + b + 6.6, "end");
 		}
-		e(w, "d", i), e(T, "d", `M${C} ${x}v${b}` + (P < 0 && F > 0 ? `M${C} ${a(R(0))}h${S}` : ""));
+		e(w, "d", i), e(T, "d", `M${C} ${x}v${b}` + (P < 0 && F > 0 ? `M${C} ${a(z(0))}h${S}` : ""));
 	}
-	function V(e) {
-		p = e, [S, C] = [p - mn - Math.min(Math.max(..._) + 4, .3 * p), -p / 2 + mn], y.setAttribute("viewBox", `${-p / 2} ${-v / 2} ${p} ${v}`), M.forEach((e) => e.setAttribute("x", a(C + S + 2))), P = NaN;
+	function H(e) {
+		p = e, [S, C] = [p - mn - Math.min(Math.max(..._) + 4, .3 * p), -p / 2 + mn], y.setAttribute("viewBox", `${-p / 2} ${-v / 2} ${p} ${v}`), M.forEach((e) => e.setAttribute("x", a(C + S + 2))), L = !0;
 	}
-	V(p);
-	let H = (e) => f.seek((l(y, e)[0] - C) / S * A);
+	H(p);
+	let U = (e) => f.seek((l(y, e)[0] - C) / S * A);
 	y.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (y.setPointerCapture(e.pointerId), H(e));
-	}), y.addEventListener("pointermove", (e) => e.buttons && y.hasPointerCapture(e.pointerId) && H(e));
-	function* U() {
-		(yield* z()) && B();
-		for (let [t, n] of D.entries()) yield, e(n, "d", je(c, (e) => [L(e), R(N(d.curves[t], e))]));
+		e.target.closest(".key") || (y.setPointerCapture(e.pointerId), U(e));
+	}), y.addEventListener("pointermove", (e) => e.buttons && y.hasPointerCapture(e.pointerId) && U(e));
+	function* W() {
+		(yield* B()) && V();
+		for (let [t, n] of D.entries()) yield, e(n, "d", je(c, (e) => [R(e), z(N(d.curves[t], e))]));
 	}
 	return {
 		figure: h,
-		resize: V,
-		parts: U,
+		resize: H,
+		parts: W,
 		update(t) {
-			t && Ge(U());
-			let r = a(L(Math.min(f.time(), A)));
+			t && Ge(W());
+			let r = a(R(Math.min(f.time(), A)));
 			e(O, "d", `M${r} ${x}v${b}`), d.curves.forEach((e, t) => {
-				let i = c.solved ? {
-					cx: r,
-					cy: a(R(c.here[e.row] / g.size))
-				} : {};
+				let i = c.solved ? z(c.here[e.row] / g.size) : NaN, o = Number.isFinite(i);
 				n(k[t], {
-					visibility: c.solved ? "visible" : "hidden",
-					...i
+					visibility: o ? "visible" : "hidden",
+					...o && {
+						cx: r,
+						cy: a(i)
+					}
 				}), M[t].classList.toggle("picked", f.picked() === e);
 			});
 		}
@@ -3806,7 +3810,7 @@ async function Gn(e, n, r, a) {
 		play: J,
 		show: q,
 		go: ue,
-		reset: G,
+		reset: le,
 		back: a.back
 	}), T = i("main", e), E = i("section", T, {
 		class: "stage",
@@ -3815,18 +3819,18 @@ async function Gn(e, n, r, a) {
 		full: a.full,
 		rates: n.views.rates,
 		on: a.on,
-		entries: te,
-		chosen: ne,
+		entries: ee,
+		chosen: te,
 		again: Y,
-		held: (e) => s.count > 1 && ae(n, `${e.kind}:${e.name}`) >= 0
+		held: (e) => s.count > 1 && ie(n, `${e.kind}:${e.name}`) >= 0
 	}), { m: k, paper: A } = O, j = i("output", A, {
 		class: "digits",
 		"aria-label": "value of the chosen curve"
 	}), M = new Ot(k, n, s), N = Ln(k, D, s, r), P = new At(A, k, n, s, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), F = Zt(k, n, s, {
-		changed: ce,
-		finished: le
+		changed: se,
+		finished: ce
 	});
-	se(k, n, s, D, {
+	oe(k, n, s, D, {
 		seek: q,
 		time: () => r.t
 	});
@@ -3838,8 +3842,8 @@ async function Gn(e, n, r, a) {
 		seek: q,
 		pick: z,
 		picked: () => S?.curve
-	}, r, () => Y(!0)), V = U(), H = cn(R.add("Change", "every number of the file"), n, s, l, (e) => e ? le() : ce());
-	re(), pn(R.add("About", "method and assumptions"), n);
+	}, r, () => Y(!0)), V = U(), H = cn(R.add("Change", "every number of the file"), n, s, l, (e) => e ? ce() : se());
+	ne(), pn(R.add("About", "method and assumptions"), n);
 	function U() {
 		let e = i("div", E, { class: "switches" }), { arrows: t, labels: a } = n.views.mechanism;
 		Dt(e, O.view, r, s.count > 1, () => Y(!0));
@@ -3865,24 +3869,24 @@ async function Gn(e, n, r, a) {
 			title: "arrows: moving a joint in this direction lowers the peak of the chosen curve",
 			on: !1,
 			act: (e) => (M.on = e, Y(!0))
-		}), Et(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Un, () => (ie(), Y(!0))), n.handles.some((e) => e.kind === "joint") && Tt(e, {
+		}), Et(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Un, () => (re(), Y(!0))), n.handles.some((e) => e.kind === "joint") && Tt(e, {
 			said: "tolerances",
 			title: "a thousand machines with points displaced by up to 0.5 % of the drawing's width",
 			on: !1,
 			act: (e) => (P.on = e, Y(!0))
 		}), k.paper.axes.length > 2 && i("span", e, {}, "drag to rotate the view"), i("span", e, { class: "spread" });
 	}
-	function ee({ kind: e, name: t }) {
-		return n.sketch.links[ae(n, `${e}:${t}`)] ?? n.views.mechanism.arrows.find((n) => n.of === t && n.kind === e)?.link;
-	}
 	function W({ kind: e, name: t }) {
+		return n.sketch.links[ie(n, `${e}:${t}`)] ?? n.views.mechanism.arrows.find((n) => n.of === t && n.kind === e)?.link;
+	}
+	function G({ kind: e, name: t }) {
 		let r = n.handles.find((n) => n.kind === e && (n.name === t || n.name.startsWith(`${t}:`)));
 		return r ? k.paper.point(r.p) : null;
 	}
-	function te(e, t) {
+	function ee(e, t) {
 		let i = [], a = /* @__PURE__ */ new Set();
 		for (let o of e.slice(0, Wn)) {
-			let { kind: e, name: c } = o, l = ae(n, `${e}:${c}`), u = l < 0 ? void 0 : n.sketch.links[l], f = e === "joint" || e === "reaction" ? x.find((e) => e.curve.of === `reaction.${c}.magnitude`) : x.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
+			let { kind: e, name: c } = o, l = ie(n, `${e}:${c}`), u = l < 0 ? void 0 : n.sketch.links[l], f = e === "joint" || e === "reaction" ? x.find((e) => e.curve.of === `reaction.${c}.magnitude`) : x.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
 			f && i.push({
 				said: `Curve of ${d(f.curve.name)}`,
 				act: () => (z(f.curve), R.show("Curves"))
@@ -3893,7 +3897,7 @@ async function Gn(e, n, r, a) {
 				act: () => (R.show("Change"), H.focus(p.path))
 			}), e === "tracer" && i.push({
 				said: "Remove this path",
-				act: () => (r.tracers.splice(+c, 1), ie(), Y(!0))
+				act: () => (r.tracers.splice(+c, 1), re(), Y(!0))
 			}), u && !a.has(u) && (a.add(u), i.push({
 				said: `Free body of ${u}`,
 				act: () => (B.choose(u), R.show("Forces"))
@@ -3902,8 +3906,8 @@ async function Gn(e, n, r, a) {
 				act: () => {
 					r.tracers.push({
 						link: u,
-						u: D.local(k.paper, l, W(o) ?? k.paper.of(...t))
-					}), ie(), Y(!0);
+						u: D.local(k.paper, l, G(o) ?? k.paper.of(...t))
+					}), re(), Y(!0);
 				}
 			}));
 		}
@@ -3912,42 +3916,42 @@ async function Gn(e, n, r, a) {
 			act: O.view.fit
 		}), i.filter((e, t) => i.findIndex((t) => t.said === e.said) === t);
 	}
-	function ne(e) {
-		e && e.kind !== "joint" && B.choose(ee(e)), Y(!0);
+	function te(e) {
+		e && e.kind !== "joint" && B.choose(W(e)), Y(!0);
 	}
-	function re() {
+	function ne() {
 		let e = R.add("Save", "files to save, print, share"), t = Bt(n.title), o = (t, n) => i("button", e, { type: "button" }, t).addEventListener("click", n);
 		n.template.length && o("Model file", () => X(`${t}.yaml`, Ft(n, s), "text/yaml")), o("Curves as CSV", () => X(`${t}.csv`, It(n, s), "text/csv")), o("Drawing as SVG", () => X(`${t}.svg`, Lt(k.svg, n.style.light), "image/svg+xml")), o("Drawing as PNG", () => void zt(k.svg, n.style.light).then((e) => X(`${t}.png`, e, "image/png"))), o("Print", () => window.print()), a.address && o("Copy link", () => {
 			location.hash = Nt(n, s, r), navigator.clipboard?.writeText(location.href);
 		});
 	}
-	function ie() {
+	function re() {
 		a.address && window.history.replaceState(null, "", "#" + Nt(n, s, r)), a.on?.({
 			type: "view",
 			view: r
 		});
 	}
-	function oe() {
+	function ae() {
 		Y(!0), H.update();
 		let e = Mt(n, s);
 		a.edited?.(e), a.on?.({
 			type: "change",
 			changes: e
-		}), ie();
+		}), re();
 	}
-	function ce() {
+	function se() {
 		s.coarse = !0, l.pass(), Y(!0);
 	}
-	function le() {
+	function ce() {
 		s.coarse = !1;
 		let { sentence: e } = l;
-		l.pass() && (l.sentence = e), b.note(), K(!0), oe();
+		l.pass() && (l.sentence = e), b.note(), K(!0), ae();
 	}
-	function G() {
-		l.change({}), le(), K();
+	function le() {
+		l.change({}), ce(), K();
 	}
 	function ue(e) {
-		b.go(e) && (K(!0), oe());
+		b.go(e) && (K(!0), ae());
 	}
 	function K(e = !1) {
 		s.cycle(), k.fit(void 0, e), B.fit();
