@@ -3,6 +3,7 @@ templates; the file is edited either way, and nothing is lost."""
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 from random import Random
@@ -192,6 +193,35 @@ def test_what_is_deleted_while_it_is_dragged_is_let_go(tabs: Any, tmp_path: Path
         s.page.mouse.up()
         s.answered()
         assert "P" not in da.loads(s.text).links["coupler"].points
+
+
+@pytest.mark.long
+def test_a_drag_in_the_forces_that_is_taken_back_is_taken_back_there_too(tabs: Any, tmp_path: Path) -> None:
+    """At once, before the forces of what was dragged are known, and after."""
+    path = tmp_path / "m.yaml"
+    path.write_text(problem_text("template", "slider_crank"), encoding="utf-8")
+    with serving(path) as served:
+        s = tabs(served)
+        s.page.click("[role=tab][data-pane=Forces]")
+        s.until("studio.solved()")
+        text, effort = s.text, s.effort()
+        for wait in (0, 0, 3000):
+            handle = s.page.locator(".pane.forces .handle.joint:visible").last
+            handle.wait_for()
+            box = handle.bounding_box()
+            x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+            s.page.mouse.move(x, y)
+            s.page.mouse.down()
+            s.page.mouse.move(x + 20, y + 15, steps=3)
+            s.page.mouse.up()
+            s.page.wait_for_timeout(wait)
+            s.page.evaluate("document.activeElement.blur()")
+            s.page.keyboard.press("Control+z")
+            s.until(f"studio.solved() && studio.state().text === {json.dumps(text)}")
+            assert s.effort() == effort
+            assert s.page.evaluate(
+                "studio.page().kernel.values.every((v, k) => v === studio.page().data.numbers[k].value)"
+            )
 
 
 @pytest.mark.long

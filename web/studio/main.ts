@@ -127,6 +127,7 @@ function update(s: State): void {
     if (first) canvas.window.fit(s.drawing);
   }
   banners(s);
+  if (shown?.of === s.analysed && last !== "{}") void forces(shown); // what was changed in the page was taken back
   speak();
   draw();
 }

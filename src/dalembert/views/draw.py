@@ -160,6 +160,7 @@ def acceleration_polygon(r: Result, at: PositionChoice = None, notation: Notatio
 def instant_centers(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """The instant centres of every two links."""
     refuse_space(r.mechanism, "a drawing of instant centres", FREE_BODIES)
+    refuse_structure(r, "a drawing of instant centres")
     return instant_centers_scene(r, position_at(r, at), notation)
 
 
