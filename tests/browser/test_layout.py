@@ -64,7 +64,8 @@ def test_the_drawing_fills_the_window_and_its_scale_is_true(opened: Any, width: 
 
 def test_the_window_may_change_while_a_handle_is_held(opened: Any) -> None:
     """The point on each curve goes on being drawn, at its value, before the curves follow."""
-    page, script = opened(FOUR_BAR), "[...document.querySelectorAll('.chart circle')].map(e => +e.getAttribute('cx'))"
+    page = opened(FOUR_BAR)
+    script = "[...document.querySelectorAll('.chart circle')].map(e => +e.getAttribute('cx'))"
     x, y = page.place('.handle[data-name="O4"]')
     page.page.mouse.move(x, y)
     page.page.mouse.down()

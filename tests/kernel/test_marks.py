@@ -8,7 +8,7 @@ import re
 import pytest
 
 from dalembert.analysis.engine import force_program
-from dalembert.kernel import friction_trace
+from dalembert.kernel.doubts import uncertain
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.position.placing_order import UNDETERMINED, blocks
 
@@ -18,7 +18,7 @@ def test_a_mark_that_never_speaks_is_left_out_and_one_that_always_does_is_not() 
     never, edge, always, unknown = (graph.constant(x) for x in (1.0, 0.0, -1.0, math.nan))
     varies = graph.input("number", "x", 3.0)
     nodes = [never, edge, always, unknown, varies]
-    assert list(friction_trace._varying(nodes)) == [always, unknown, varies]
+    assert list(uncertain(nodes)) == [always, unknown, varies]
     assert list(force_program._varying(nodes)) == [always, unknown, varies]
     assert list(force_program._varying([varies, always], [never, varies])) == [varies, always]
     assert force_program._varying([never]).shape == (0,)

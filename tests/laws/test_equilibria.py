@@ -97,3 +97,23 @@ def test_roots_stand_once_in_order_with_their_stability() -> None:
     assert equilibria._distinct(np.zeros(0), 0.25).size == 0
     scan: Any = Scan(lambda q: (q - 1) * (q - 3) * (q - 5) ** 2)
     assert equilibria._stability(scan, np.array([1.0, 3.0, 5.0]), 100.0) == ("unstable", "stable", "neutral")
+
+
+def test_what_does_not_close_is_searched_for_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a range that reaches beyond the linkage only the first scan looks there; the roots are those of its part."""
+    tree = da.four_bar(coupler=0.25).to_tree()
+    tree["drives"] = {"O4": {"position": "unknown", "range": [0.3, 6.0], "effort": 0}}
+    tree["gravity"] = "standard"
+    scans = list[int]()
+    plain = equilibria.at_schedule
+
+    def counted(m: Any, schedule: Any, inertia: bool) -> Any:
+        r = plain(m, schedule, inertia)
+        scans.append(sum(s == "not_assembled" for s in r.status))
+        return r
+
+    monkeypatch.setattr(equilibria, "at_schedule", counted)
+    r = da.statics(da.mechanism(tree))
+    assert r.stability is not None
+    assert scans[0] > 100
+    assert max(scans[1:]) <= 3

@@ -14,6 +14,7 @@ from dalembert.model.drives.motors import MotorCurve
 from dalembert.views.charts import chart_scenes
 from dalembert.views.paper.diagrams import SIZE
 from dalembert.views.paper.scene import Line, Polygon, Scene
+from tests.approved.printed import jumps, rubs
 
 LBF, LBF_IN = 4.4482216152605, 0.1129848290276167
 Curves = dict[str, Any]
@@ -241,6 +242,21 @@ def test_charts_of_bearings() -> None:
     for j in list(t.loads)[:2]:
         (title,) = (k for k in scenes if k.startswith(f"Joint {j} on") and "ground" in k)
         np.testing.assert_allclose(path(scenes[title])[:-1], r.reaction(j) / LBF, atol=1e-4)
+
+
+@pytest.mark.parametrize("made", [rubs, jumps])
+def test_what_has_two_sides_at_a_position_is_drawn_once_there(made: Any) -> None:
+    """Answers of machine design have the numbers just before a reversal or a jump."""
+    r = da.dynamics(made())
+    assert r.after is not None
+    assert "reversal" in r.status or "jump" in r.status
+    choice = da.motor(r)
+    _, values = Chart(choice.drawings()[0]).curves["effort"]
+    before = r.before.effort(choice.drive)
+    assert values == pytest.approx(before, abs=1e-6 * np.abs(before).max())
+    if made is rubs:
+        answers = da.bearings(r), da.balance(r, ["crank"])
+        assert all(len(answer.drawings()) > 1 and str(da.report(answer)) for answer in answers)
 
 
 def test_charts_of_a_motion_under_forces() -> None:

@@ -334,13 +334,14 @@ def test_the_command_goes_to_a_position(tmp_path: Path) -> None:
 
 
 STRUCTURE = (
-    "an?( velocity polygon| animation| chart) shows a motion, and a structure has none; draw the mechanism"
+    "an?( velocity polygon| animation| chart| drawing of instant centres) shows a motion, and a structure has none; "
+    "draw the mechanism"
 )
 
 
 def test_a_structure_has_no_motion_to_draw() -> None:
     r = result("truss")
-    for drawn in (da.draw.animation, da.draw.charts, da.draw.motion):
+    for drawn in (da.draw.animation, da.draw.charts, da.draw.motion, da.draw.instant_centers):
         with pytest.raises(da.ModelError, match=STRUCTURE):
             drawn(r)
 

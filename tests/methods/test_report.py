@@ -202,6 +202,17 @@ def test_every_term_of_a_loop_means_its_figure(name: str) -> None:
     assert compared >= 18
 
 
+def test_joints_at_one_point_are_no_loop() -> None:
+    """A second pin where one is: the sides of their loop would have no length."""
+    m = da.four_bar()
+    tree = m.to_tree()
+    tree["joints"]["twin"] = {**tree["joints"]["O2"], "at": "O2"}
+    alone, twins = da.solve(m, positions=[1.0]), da.solve(da.mechanism(tree), positions=[1.0])
+    assert twins.status == ("redundant",)
+    assert [loop.links for loop in loops(twins, 0)] == [loop.links for loop in loops(alone, 0)]
+    assert "twin" in str(da.report(twins))
+
+
 def test_what_has_no_worked_solution_is_refused() -> None:
     with pytest.raises(da.ModelError, match=r"no worked solution of dict .*give a result of da\.solve"):
         da.report({"crank": 1})  # type: ignore[arg-type]

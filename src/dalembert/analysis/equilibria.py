@@ -13,7 +13,7 @@ import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule, some_positions
 from dalembert.analysis.result.result import Result
-from dalembert.arrays import Array, Ints, Tree
+from dalembert.arrays import Array, Flags, Ints, Tree
 from dalembert.model import Mechanism, Schedule
 
 SCAN = 720
@@ -57,11 +57,20 @@ class _Scan:
         self.name, self.range = schedule.unknown, schedule.range
         self.drive = schedule.names.index(schedule.unknown)
         self.whole_turn = abs(abs(self.range[1] - self.range[0]) - 2 * np.pi) < 1e-9
+        self.grid = np.linspace(*self.range, COARSE + 1)
 
     def result(self, q: Array) -> tuple[Result, Ints]:
-        """Analysis over a coarse grid and the positions q, and the places of q in it."""
-        grid = np.union1d(np.linspace(*self.range, COARSE + 1), q)
-        return at_schedule(self.m, self._schedule(grid), self.inertia), np.searchsorted(grid, q)
+        """Analysis over a coarse grid and the positions q, and the places of q in it.
+
+        Where the grid does not close it is not tried again: each such position is searched for at length.
+        """
+        grid = np.union1d(self.grid, q)
+        result = at_schedule(self.m, self._schedule(grid), self.inertia)
+        closes: Flags = np.asarray(np.isfinite(result.point_array).all(axis=(1, 2)))
+        closes = closes[np.searchsorted(grid, self.grid)]
+        closes[0] = True  # the assembly is that of the first position
+        self.grid = self.grid[closes]
+        return result, np.searchsorted(grid, q)
 
     def _schedule(self, grid: Array) -> Schedule:
         def column(values: Array) -> Array:

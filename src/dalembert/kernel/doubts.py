@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import reduce
 
 from dalembert.arrays import Array
 from dalembert.core.forcing import TurningFrame
 from dalembert.core.layout import Layout
-from dalembert.kernel.graph import Graph, Node, is_zero, trace_array
+from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
+
+
+def uncertain(nodes: Iterable[Node]) -> tuple[Node, ...]:
+    """Those that may be negative, or no number: all but constants that are not."""
+    return tuple(n for n in nodes if n.level != CONSTANT or not n.value >= 0)
+
 
 HELD = 1e-7
 """Couple about a line about which a link is free, over its length and the largest load, above which the general

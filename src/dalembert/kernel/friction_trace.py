@@ -40,8 +40,9 @@ from dalembert.core.friction.friction_solver import LOST
 from dalembert.core.friction.losses import dry_wrenches, power_reversed, viscous_wrenches
 from dalembert.core.friction.reversal import crossing
 from dalembert.core.layout import ConstraintRows, Layout, Pose
+from dalembert.kernel.doubts import uncertain
 from dalembert.kernel.elimination import components, structural
-from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
+from dalembert.kernel.graph import Graph, Node, is_zero, trace_array
 from dalembert.kernel.jam_proof import jams, lever
 from dalembert.kernel.program import KernelFlags
 
@@ -234,15 +235,11 @@ def trace_slip(
         stuck.append(graph.zero if fixed else jams(graph, part, inner, sense[k]) * known)
         right |= dict.fromkeys(block, known * last.positive() * rough.positive().larger(sure.positive()))
     flags = KernelFlags(
-        slips=_varying(doubt), unsure=_varying(unsure), sure=_varying(single), jam=_varying(stuck)
+        slips=uncertain(doubt), unsure=uncertain(unsure), sure=uncertain(single), jam=uncertain(stuck)
     )
     if not (flags.unsure and flags.sure):  # in doubt, or jammed, only where both are
         flags = KernelFlags(slips=flags.slips)
     return z, bears, flags
-
-
-def _varying(nodes: list[Node]) -> tuple[Node, ...]:
-    return tuple(n for n in nodes if n.level != CONSTANT or not n.value >= 0)
 
 
 def _contraction(graph: Graph, bound: Array, sense: Array) -> tuple[Node, Node]:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Flags
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import measure
 from dalembert.core.elements.cam_rows import jump_margins
@@ -37,7 +37,8 @@ from dalembert.core.layout import Angle, ConstraintRows, Layout, Pose
 from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_places, held_wheels, phase_rows, with_rows
 from dalembert.core.position.newton import CLOSED, gap
-from dalembert.kernel.doubts import largest, unheld, unmet
+from dalembert.core.rank import NEAR
+from dalembert.kernel.doubts import largest, uncertain, unheld, unmet
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
 from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, trace_array
@@ -95,6 +96,7 @@ class TracedProblem:
     unsplit: bool = False  # and where closed forms need a choice of these, Newton's steps take all
     phased: bool = False  # the phases of wheels are in the target
     pushing: Pushing | None = None  # contacts that hold one way alone
+    usual: Flags | None = None  # positions of the known motion by whose pivots others are judged
 
 
 @dataclass(frozen=True)
@@ -300,8 +302,8 @@ def _with_phase(p: TracedProblem, layout: Layout) -> tuple[Array, list[Node]]:
     first = _trace_pose(p, with_rows(layout, kept, held, places), target, p.first, p.first_path)
     out = p.target.astype(object)
     out[rows] = measure(layout.algebra, layout.constraints, first.pose)[rows]
-    doubts = [n for n in (*first.doubt, *first.open) if n.level != CONSTANT]  # of the first position
-    return out, doubts + _centre_gaps(p, layout, first)
+    doubts = uncertain((*first.doubt, *first.open))  # of the first position
+    return out, [*doubts, *_centre_gaps(p, layout, first)]
 
 
 def _centre_gaps(p: TracedProblem, layout: Layout, first: PlacedPose) -> list[Node]:
@@ -313,7 +315,7 @@ def _centre_gaps(p: TracedProblem, layout: Layout, first: PlacedPose) -> list[No
             wanted = trace_array(p.graph, f.ri[k] + f.rj[k]).item()
             distance = (line[k] * line[k]).sum().sqrt()
             out.append(MESH * wanted - abs(distance - wanted))
-    return [n for n in out if n.level != CONSTANT]
+    return list(uncertain(out))
 
 
 MESH = 1e-3
@@ -340,18 +342,17 @@ def _decided(graph: Graph) -> list[Node]:
     return [n for n in graph.decisions if n.level != CONSTANT]
 
 
-NEAR = 1e-5
-"""Squared pivot over its size in the file's motion below which a position is left to the general executor."""
-
-
 def _singular(p: TracedProblem, *factors: object) -> list[Node]:
     """Nodes that are negative near a singular configuration; known solutions are exempt."""
     if p.slips is not None:
         return []
     pivots = [x for f in {id(f): f for f in factors}.values() for x in _pivots(f)]
+    if p.usual is not None and not p.usual.any():
+        return [p.graph.constant(-1.0)] if pivots else []
     out = []
     for pivot, sample in zip(pivots, p.graph.evaluate(pivots, {}), strict=True):
-        usual = float(abs(sample) if np.ndim(sample) == 0 else np.nanquantile(np.abs(sample), 0.75))
+        sizes = np.abs(sample if np.ndim(sample) == 0 or p.usual is None else sample[p.usual])
+        usual = float(np.nanquantile(sizes, 0.75))
         if usual > 0:
             out.append(pivot * pivot * (1 / usual / usual) - NEAR)
     return out
@@ -380,7 +381,7 @@ def _short(p: TracedProblem, layout: Layout, pose: Pose) -> list[Node]:
     """Not positive where a spring or damper whose direction matters has zero length."""
     springs = p.forcing.springs
     nodes = trace_array(p.graph, fc.away(layout, springs, pose))[fc.needs_direction(springs)]
-    return [n for n in nodes if n.level != CONSTANT]
+    return list(uncertain(nodes))
 
 
 def _pivots(factors: object) -> list[Node]:

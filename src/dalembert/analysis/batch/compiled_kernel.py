@@ -36,6 +36,7 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
+from dalembert.kernel.doubts import uncertain
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.program import Program
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
@@ -173,8 +174,7 @@ class Kernel:
         traced = self.trace.catalogue.traced
         flags = replace(traced.friction.flags, open=tuple(traced.open), doubt=tuple(traced.doubt))
         graph = traced.graph
-        margins = (tuple(n for n in of if n.level != CONSTANT) for of in (graph.outside, traced.contacts))
-        flags = replace(flags, **dict(zip(("outside", "contact"), margins, strict=True)))
+        flags = replace(flags, outside=uncertain(graph.outside), contact=uncertain(traced.contacts))
         values = sum(len(of) for of in self.nodes.values()) if values is None else values
         slope = [] if self.reduce else nodes[values:]
         known = self.trace.course.result is not None

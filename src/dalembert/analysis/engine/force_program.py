@@ -17,7 +17,13 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.flat_numbers import Numbers, values, with_nodes
-from dalembert.analysis.engine.kept_program import CHECKS, TracedOutputs, force_nodes, problem_of
+from dalembert.analysis.engine.kept_program import (
+    CHECKS,
+    DeadCentreError,
+    TracedOutputs,
+    force_nodes,
+    problem_of,
+)
 from dalembert.analysis.result.force_arrays import Friction, SolvedForces
 from dalembert.analysis.status.statuses import UNBALANCED
 from dalembert.arrays import Array, Flags, Tree
@@ -32,9 +38,11 @@ from dalembert.core.friction.contact_equations import (
 )
 from dalembert.core.friction.losses import friction_arrays
 from dalembert.core.layout import Pose
+from dalembert.core.rank import usual
+from dalembert.kernel.doubts import uncertain
 from dalembert.kernel.elimination import structural
 from dalembert.kernel.friction_trace import trace_slip
-from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
+from dalembert.kernel.graph import Graph, Node, is_zero, trace_array
 from dalembert.kernel.trace import Traced, TracedProblem, trace_at
 
 KEPT = ("twist", "acceleration", "effort", "load", "force", "moment")
@@ -64,10 +72,14 @@ class ForceProgram(TracedOutputs):
 
 
 def trace_forces(c: Compiled, pose: Pose, numbers: Numbers, inertia: bool) -> ForceProgram | None:
-    """The program of a mechanism whose poses (P, L+1, ...) are known; None where it cannot be traced."""
+    """The program of a mechanism whose poses (P, L+1, ...) are known; None where it cannot be traced, or not in these:
+    DeadCentreError."""
     graph = Graph()
     known = np.flatnonzero(np.isfinite(pose.point).all(axis=(1, 2)))
     some = known[np.linspace(0, len(known) - 1, min(len(known), SAMPLES)).astype(int)]
+    some = some[usual(c.layout, pose.at(some))]
+    if not some.size:
+        raise DeadCentreError
     symbols = with_nodes(graph, c, numbers._replace(columns=numbers.columns[:, some]), pose)
     assert symbols.pose is not None
 
@@ -90,9 +102,7 @@ def trace_forces(c: Compiled, pose: Pose, numbers: Numbers, inertia: bool) -> Fo
 
 
 def _varying(*nodes: Sequence[Node]) -> Array:
-    varying: dict[int, Node] = {
-        n.index: n for some in nodes for n in some if n.level != CONSTANT or not n.value >= 0
-    }
+    varying = {n.index: n for some in nodes for n in uncertain(some)}
     return np.array([*varying.values(), None], object)[:-1]
 
 

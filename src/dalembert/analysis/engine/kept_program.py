@@ -20,6 +20,8 @@ from dalembert.arrays import Array, Flags, Ints, Numeric
 from dalembert.core.equilibrium import relative
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.assembly_modes import counted_links
+from dalembert.core.rank import usual
+from dalembert.kernel.doubts import uncertain
 from dalembert.kernel.emit.numpy_program import NumpyProgram
 from dalembert.kernel.graph import CONSTANT, INPUTS, Graph, Node, Scalar, trace_array
 from dalembert.kernel.trace import Drives, Traced, TracedProblem, trace
@@ -170,12 +172,14 @@ class KeptProgram(TracedOutputs):
 
 
 class DeadCentreError(Exception):
-    """Raised where both branches of a group coincide, or its pose does not identify one: it is traced in another
-    pose."""
+    """Raised where both branches of a group coincide, or its pose does not identify one, or pivots are small there: it
+    is traced in another pose."""
 
 
 def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) -> KeptProgram | None:
     """The program of a mechanism whose first pose (L+1, ...) is known; None where it needs more than its numbers."""
+    if not usual(c.layout, pose.at(None)).all():
+        raise DeadCentreError
     graph = Graph()
     numbers = numbers._replace(columns=numbers.columns[:, 0])
     symbols = with_nodes(graph, c, numbers)
@@ -276,8 +280,8 @@ def _kept(graph: Graph, symbols: Symbols, t: Traced, branches: _Ways, c: Compile
     needs = _needs(graph, branches.inputs, {n.index for n in inputs})
     fixed = np.array([needs[n.index] >= 0 for n in t.pose.turn[:-1]], bool)
     squares = {n.index: n for n in t.closure if n.level != CONSTANT}
-    closure = squares | {n.index: n for n in (*t.open, *graph.decisions) if n.level != CONSTANT}
-    margin = {n.index: n for n in (*t.doubt, *t.contacts) if n.level != CONSTANT}
+    closure = squares | {n.index: n for n in uncertain((*t.open, *graph.decisions))}
+    margin = {n.index: n for n in uncertain((*t.doubt, *t.contacts))}
     outputs = {
         "closure": np.array(list(closure.values()), object),
         "point": t.pose.point[:-1],

@@ -169,7 +169,10 @@ def known_forces(c: Compiled, pose: Pose, inertia: bool) -> ForceBlock | None:
         if spent < TRACE * c.layout.links:
             STRUCTURES.put(key, _Met(spent))
             return None
-        program = trace_forces(c, pose, numbers, inertia)
+        try:
+            program = trace_forces(c, pose, numbers, inertia)
+        except DeadCentreError:
+            return None
         STRUCTURES.put(key, program)
     return force_blocks(c, program, numbers, BLOCK) if isinstance(program, ForceProgram) else None
 

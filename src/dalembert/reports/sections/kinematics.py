@@ -41,8 +41,9 @@ Ring = list[tuple[str, str, str]]
 
 
 def loops(r: Result, k: int) -> list[Loop]:
-    """Independent loops; each side at position k."""
-    return [_loop(r, k, ring) for ring in rings(r)]
+    """Independent loops, each side at position k; not those of joints at one point, which have no sides."""
+    some = (_loop(r, k, ring) for ring in rings(r))
+    return [loop for loop in some if loop.sides]
 
 
 def rings(r: Result) -> list[Ring]:

@@ -54,9 +54,10 @@ class ChartAxis:
 
 
 def cycle_axis(r: Result, notation: Notation) -> ChartAxis:
-    """The first drive, or the number of the position."""
+    """The first drive, or the number of the position, once at each: what answers have of a position is just before it
+    where the result has two sides."""
     shown = Shown(r, notation)
-    return ChartAxis(shown, *along(r, shown))
+    return ChartAxis(shown, *along(r.before, shown))
 
 
 def balance_scenes(b: Balance, notation: Notation) -> list[Scene]:

@@ -1,0 +1,119 @@
+"""Where a structure is met for the first time decides nothing: at a dead centre, with ends that coincide, without what
+would balance it. Asked again, when its program is kept, it answers as the careful path does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.engine.structures import STRUCTURES
+from dalembert.bundled import cases
+from dalembert.kernel.doubts import uncertain
+from dalembert.kernel.graph import Graph
+
+AGAIN = 5
+"""A structure whose poses are known is traced when it is met for the third time."""
+
+
+@pytest.fixture(autouse=True)
+def met_by_none() -> Iterator[None]:
+    STRUCTURES.found.clear()
+    yield
+    STRUCTURES.found.clear()
+
+
+def changed(name: str, **values: Any) -> da.Mechanism:
+    return da.load(cases()[name]).with_values({k.replace("__", "."): v for k, v in values.items()})
+
+
+def spring(end: float) -> da.Mechanism:
+    """A spring from a crank's pin to a point of the ground beside it, which is no place at the pin."""
+    m = da.mechanism(
+        {
+            "units": {"length": "mm"},
+            "links": {
+                "ground": {"points": {"O": [0, 0], "S": [end, 0]}},
+                "crank": {"points": {"O": [0, 0], "A": [100, 0]}, "mass": 2, "center": [50, 0]},
+            },
+            "joints": {"O": {"type": "pin", "links": ["ground", "crank"]}},
+            "drives": {"O": {"position": 0.5, "speed": "3 rad/s"}},
+            "loads": {"s": {"type": "spring", "between": ["crank.O", "ground.S"], "stiffness": 900}},
+        }
+    )
+    return m.with_values({"loads.s.free_length": 0.05})
+
+
+def no_masses(mass: float) -> da.Mechanism:
+    """An arm in a plane that turns at the speed that balances it: without mass nothing pulls outward."""
+    return da.mechanism(
+        {
+            "turning": {"axis": "y", "speed": "unknown"},
+            "links": {
+                "ground": {"points": {"O": [0, 0]}},
+                "arm": {"points": {"O": [0, 0], "A": [1, 0]}, "mass": mass, "center": [1, 0]},
+            },
+            "joints": {"O": {"type": "pin", "links": ["ground", "arm"]}},
+            "drives": {"O": {"position": -0.8, "effort": 0}},
+            "gravity": "standard",
+        }
+    )
+
+
+PLATE = "dk-04-plate-on-two-links"
+MET: dict[str, tuple[Any, str]] = {
+    "dead centre": (lambda: changed(PLATE, drives__E__position=np.pi / 2), "singular"),
+    "dead centre, twice": (
+        lambda: changed(PLATE, drives__E__position=[np.pi / 2] * 2, drives__E__acceleration=-5.0),
+        "singular",
+    ),
+    "beside it": (lambda: changed(PLATE, drives__E__position=np.pi / 2 - 0.02), "ok"),
+    "ends coincide": (lambda: spring(0), "undefined_load"),
+    "ends apart": (lambda: spring(1), "ok"),
+    "nothing balances": (lambda: no_masses(0), "no_balance"),
+    "a mass balances": (lambda: no_masses(1), "ok"),
+}
+
+
+@pytest.mark.parametrize("name", MET)
+def test_asked_again_it_answers_the_same(name: str) -> None:
+    made, status = MET[name]
+    m = made()
+    careful = (da.dynamics if m.has_speeds else da.statics)(m, method="careful")
+    assert set(careful.status) == {status}
+    for _ in range(AGAIN):
+        r = (da.dynamics if m.has_speeds else da.statics)(m)
+        assert r.status == careful.status
+        assert r.reasons == careful.reasons
+        assert r.force_array == pytest.approx(careful.force_array, rel=1e-9, abs=1e-9, nan_ok=True)
+    k = da.compile(m, lanes=1)() if name != "dead centre, twice" else None
+    if k is not None:
+        assert tuple(k.status[0]) == careful.status
+
+
+@pytest.mark.parametrize(("first", "second"), [(0.0, -0.4), (-0.4, 0.0)])
+def test_a_program_met_beside_a_dead_centre_serves_there_and_elsewhere(first: float, second: float) -> None:
+    for turn in (first, second):
+        m = changed(PLATE, drives__E__position=np.pi / 2 + turn)
+        careful = da.dynamics(m, method="careful")
+        for _ in range(AGAIN):
+            assert da.dynamics(m).status == careful.status
+
+
+def test_nothing_over_nothing_is_no_number_and_no_certainty() -> None:
+    g = Graph()
+    zero, one = g.zero, g.one
+    assert np.isnan(g.div(zero, zero).value)
+    assert g.div(zero, one) is zero
+    with pytest.raises(ZeroDivisionError):
+        g.div(one, zero)
+    x = g.input("number", "x", 1.0)
+    assert g.div(zero, x) is zero
+    assert uncertain([zero, one, x, g.constant(-1), g.div(zero, zero)]) == (
+        x,
+        g.constant(-1),
+        g.div(zero, zero),
+    )
