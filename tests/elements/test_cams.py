@@ -11,11 +11,13 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.compile.elements.point_profiles import _spline
 from dalembert.errors import ModelError
 from dalembert.machine.elements import cam_files
 from dalembert.machine.elements.cam_files import outline
 from dalembert.machine.elements.hertz_contact import LineContact
 from dalembert.model import read_file
+from dalembert.model.joints.elements.cam_profiles import CamPoints
 from dalembert.model.library import template_text
 from dalembert.pages.page_data import page_data
 from dalembert.views.paper.scene import Arrow, Circle, Polygon
@@ -509,3 +511,33 @@ def test_the_direction_of_a_guide_varies_in_a_kernel_and_on_a_page(face: str | N
         assert set(r.status) == {"ok"}
         assert y["effort.O"][k] == pytest.approx(r.effort("O"), rel=1e-9, abs=1e-12)
     assert "joints.guide.direction" in {one["path"] for one in page_data(m)["numbers"]}
+
+
+def test_points_of_a_whole_turn_begin_and_end_with_one_radius() -> None:
+    """Equal but for rounding, as a file has them: the curve is that of the first."""
+    angle = np.linspace(0, 2 * np.pi, 13)
+    radius = 0.03 + 0.01 * (1 - np.cos(angle))
+    whole = CamPoints(tuple(angle), (*radius[:-1], radius[0] * (1 + 1e-10)))
+    for p in (whole, CamPoints(tuple(angle[:-1]), tuple(radius[:-1]))):
+        breaks, c = _spline(p)
+        assert breaks == pytest.approx(angle)
+        assert c[3] == pytest.approx(radius[:-1])
+        last = np.polyval(c[:, -1], breaks[-1] - breaks[-2])
+        assert last == pytest.approx(radius[0], abs=1e-15)
+
+
+def test_walls_change_between_the_positions_of_a_law_where_those_of_a_speed_do() -> None:
+    found = []
+    for turn in (
+        TURN,
+        {"law": {"segments": [{"to": "350 deg", "in": "0.3 s", "by": "constant_speed"}], "count": 36}},
+    ):
+        tree = machine({"roller": "8 mm"})
+        tree["joints"]["F"]["contact"] = "holds"
+        tree["drives"]["O"] = turn
+        tree.pop("loads")
+        r = da.dynamics(da.mechanism(tree))
+        found.append(r.contact("F").changes)
+    assert r.schedule.time is not None
+    assert found[0].size
+    assert found[1] == pytest.approx(found[0], abs=1e-7)

@@ -13,8 +13,9 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.errors import ModelError
 from dalembert.interchange.file_formats import foreign_bytes, read_foreign
-from dalembert.interchange.link_graph import inertia_matrix
+from dalembert.interchange.link_graph import Connection, inertia_matrix
 from dalembert.interchange.robots.mjcf_geoms import combined
+from dalembert.interchange.robots.urdf_writer import steps
 from tests.interchange.test_ondsel import SCREW
 from tests.interchange.written_files import largest_difference, read_back
 from tests.space.test_gears import pair, wheel
@@ -374,3 +375,12 @@ def test_bevel_wheels_have_no_ratio_of_parallel_hinges(shaft: float) -> None:
     m = pair(first, wheel((contact @ axis * axis).tolist(), axis.tolist(), 0.07), [0, 0, 1])
     with pytest.raises(da.ModelError, match="gear 'G': its axes are not parallel; leave it out"):
         foreign_bytes(m, "x.xml")
+
+
+def test_a_joint_from_j_to_i_has_its_coordinates_in_the_other_order() -> None:
+    """A ball turns about x, y and z; its inverse is about -z, -y and -x."""
+    eye = np.eye(4)
+    joint = Connection("S", "spherical", ("a", "b"), (eye, eye))
+    ahead, back = (steps(joint, flipped) for flipped in (False, True))
+    assert [c.freedom for c in back] == [c.freedom for c in reversed(ahead)] == ["turn z", "turn y", "turn x"]
+    assert [c.axis.tolist() for c in back] == [(-c.axis).tolist() for c in reversed(ahead)]

@@ -393,3 +393,13 @@ def test_a_thread_lies_on_its_cylinder(thread: float) -> None:
     turned = np.cross(radial[:-1], radial[1:]) @ along
     assert np.sign(turned) == pytest.approx(np.sign(thread))
     assert np.abs(np.arcsin(turned / 1.5**2)).sum() == pytest.approx(2 * np.pi * 10 / abs(thread), rel=1e-9)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_worm_of_either_hand_is_a_threaded_bar(sign: float) -> None:
+    tree = da.worm_gear().to_tree()
+    (name,) = (n for n, j in tree["joints"].items() if "helix_angle" in j)
+    size = abs(math.degrees(da.worm_gear().joints[name].helix_angle))
+    tree["joints"][name]["helix_angle"] = f"{sign * size!r} deg"
+    r = da.kinematics(da.mechanism(tree), 1)
+    assert sum(isinstance(solid, RoundBar) for _, solid in wheel_solids(r, name, 100.0)) == 1

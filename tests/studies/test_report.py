@@ -266,3 +266,16 @@ def test_a_study_is_kept_in_memory_up_to_a_limit(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(running, "IN_MEMORY", size - 1)
     with pytest.raises(da.ModelError, match=r"the results take 0\.0 GB; give run"):
         s.run()
+
+
+def test_a_limit_beside_all_designs_is_drawn_where_it_is() -> None:
+    """The axis reaches from the least design or limit to the greatest; bars in the middle of wide limits are narrow."""
+    widths = []
+    for limits in ({}, {"effort.O2": "-1000 N*m .. 1000 N*m"}):
+        scene = histogram_scene(four_bar(limits=limits), "effort.O2")
+        xs = [x for p in scene.flat() if isinstance(p, Polygon) for x, _ in p.points]
+        axis = [x for p in scene.flat() if isinstance(p, Line) and p.role == "axis" for x, _ in p.points]
+        assert min(axis) <= min(xs) < max(xs) <= max(axis)
+        widths.append((max(xs) - min(xs)) / (max(axis) - min(axis)))
+    assert widths[0] > 0.9
+    assert widths[1] < 0.1

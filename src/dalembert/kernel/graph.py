@@ -259,7 +259,7 @@ class Graph:
 
     def div(self, a: Node, b: Node) -> Node:
         if a.op == "const" and a.value == 0:
-            return self.constant(math.nan) if b.op == "const" and b.value == 0 else self.zero
+            return self.zero
         if b.op == "const":
             return (
                 self.constant(a.value / b.value)

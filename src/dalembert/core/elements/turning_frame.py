@@ -54,7 +54,7 @@ def turning_square(
     first, second = (
         (total_wrench(layout, *some) * v).sum(axis=(-2, -1)) for some in (sources.values(), (unit,))
     )
-    return np.asarray(-(first + frame.effort) / second)
+    return np.asarray(-(first + frame.effort) * (1.0 / second))
 
 
 def second_moment(layout: Layout, inertia: Inertia, frame: TurningFrame, pose: Pose) -> Array:
