@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED, first_mark
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.course import PositionPath
+from dalembert.analysis.batch.tracing.course import PositionPath, in_mode
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, with_numbers
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.named_quantities import quantity as read_quantity
@@ -46,7 +46,7 @@ def redone(
 ) -> None:
     """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
     code = answer.code
-    codes, result = analyse_design(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
+    codes, result = analyse_design(k.mechanism, k.trace.numbers, values, course, k.trace.inertia)
     if k.trace.redundant:  # the outputs there are unique
         codes = np.where(codes == CODES.index("redundant"), np.uint8(0), codes)
     here = np.ones(len(codes), bool) if k.reduce else undecided
@@ -124,14 +124,15 @@ def slopes(
 
 
 def analyse_design(
-    m: Mechanism, numbers: Sequence[VariedNumber], values: Array, schedule: Schedule, inertia: bool
+    m: Mechanism, numbers: Sequence[VariedNumber], values: Array, course: PositionPath, inertia: bool
 ) -> tuple[NDArray[np.uint8], Result | None]:
     """Codes (position,) of one design, and its result; all failed, and none, where the design is refused."""
+    schedule = course.schedule
     count = len(schedule.position)
     if not np.isfinite(values).all():
         return np.full(count, CODES.index("failed"), np.uint8), None
     try:
-        design = with_numbers(m, numbers, values.tolist())
+        design = in_mode(with_numbers(m, numbers, values.tolist()), course.followed.compiled, course.turn)
         result = at_schedule(design, _schedule(design, schedule), inertia, method="careful")
     except DalembertError:
         return np.full(count, CODES.index("failed"), np.uint8), None

@@ -13,6 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
+from dalembert.analysis.batch.tracing.course import in_mode
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, number_kinds
 from dalembert.analysis.result.named_quantities import Quantity, component, quantity, solved_names
 from dalembert.analysis.result.number_kinds import in_plane
@@ -60,7 +61,7 @@ def sweep(
     ``vary``: a path, with ``values``; or a mapping of paths to values: a grid, or with ``together`` value by value.
     Numbers are SI and radians, texts are read as in the file (``"3 lb"``). ``outputs``: names of quantities, default
     every effort, unknown load and reaction. Many numbers run compiled (`da.compile`), everything else by kept programs,
-    with the same answers. ``progress``: called with (designs done, designs). Raises ModelError for a value that is
+    with the same answers, and all designs stand in the assembly mode of the first. ``progress``: called with (designs done, designs). Raises ModelError for a value that is
     refused.
 
     >>> import dalembert as da
@@ -91,7 +92,7 @@ def sweep(
             )  # else designs behind the first may have inertia
         answers = _compiled(nominal, tuple(varied), designs, like, tell) if compiled else None
         if answers is None:
-            results = (_analysis(m, tuple(varied), design, static, positions) for design in designs)
+            results = (_analysis(m, tuple(varied), design, static, positions, nominal) for design in designs)
             answers = _collected(results, like, len(designs), tell)
     kinds = {name: q.kind for name, q in like.items()}
     return Sweep(m, dict(labels), together, kinds, nominal, answers.shaped(shape))
@@ -169,9 +170,16 @@ def _kept(r: Result) -> list[str]:
 
 
 def _analysis(
-    m: Mechanism, paths: Sequence[str], design: Sequence[object], static: bool, positions: AtPositions
+    m: Mechanism,
+    paths: Sequence[str],
+    design: Sequence[object],
+    static: bool,
+    positions: AtPositions,
+    like: Result | None = None,
 ) -> Result:
-    return solve(m.with_values(dict(zip(paths, design, strict=True))), static, positions)
+    """One design, in the assembly mode of another."""
+    one = m.with_values(dict(zip(paths, design, strict=True)))
+    return solve(one if like is None else in_mode(one, like.compiled, like.turn_array[0]), static, positions)
 
 
 class _Answers(NamedTuple):

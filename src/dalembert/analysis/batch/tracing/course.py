@@ -19,6 +19,7 @@ from dalembert.analysis.status.overflow import size_sentence
 from dalembert.arrays import Array, Tree
 from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
+from dalembert.core.position.first_pose_plane import Guess, phase_rows
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
 
@@ -75,6 +76,11 @@ class PositionPath:
         for a in parts:
             a[lost] = np.nan
         return Pose(*parts)
+
+    @property
+    def turn(self) -> Array:
+        """Angles (L,) of the links at the first position, NaN where it does not close."""
+        return self.pose.turn[0, :-1]
 
     @cached_property
     def first(self) -> int:
@@ -147,3 +153,19 @@ def _poses_with_ground(result: Result) -> Pose:
     """Poses of a result, with those of the ground."""
     point = np.pad(result.point_array, ((0, 0), (0, 1), (0, 0)))
     return Pose(point, *result.compiled.layout.algebra.with_ground(result.turn_array, result.rotation_array))
+
+
+def in_mode(m: Mechanism, like: Compiled, turn: Array) -> Mechanism:
+    """A design with the assembly mode of another, whose links have the angles ``turn`` (L,) at its first position.
+
+    As it is where its file states angles, in space, where it begins elsewhere, and where phases follow from the first
+    pose.
+    """
+    if m.assembly or not isinstance(like.guess, Guess) or not np.isfinite(turn).all():
+        return m
+    if phase_rows(like.layout.constraints).size:
+        return m
+    begins = (s.position[0] for s in (m.schedule(), like.schedule))
+    if not np.array_equal(*begins):
+        return m
+    return m.model_copy(update={"assembly": dict(zip(like.links, turn.tolist(), strict=True))})

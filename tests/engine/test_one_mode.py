@@ -1,0 +1,67 @@
+"""Designs of one file stand in one assembly mode, whichever way they are computed, also where the file states none."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.batch.careful_path import analyse_design
+from dalembert.analysis.batch.tracing.course import in_mode
+from dalembert.bundled import cases
+
+GOVERNOR = da.load(cases()["gov-14-hartnell-governor"])
+"""Drawn as it stands. Where its bell is not as drawn the rule of the search would turn it over."""
+UP = "links.bell.points.R.1"
+
+
+@pytest.mark.parametrize("path", [UP, "joints.axis.direction"])
+def test_a_design_beside_a_drawn_one_is_not_turned_over(path: str) -> None:
+    nominal = float(np.pi / 2 if path.startswith("joints") else 0.0)
+    values = [nominal + x for x in (0.0, 1e-4, 1e-3, -1e-3, 1e-2)]
+    k = da.compile(GOVERNOR, [path], ["angle.bell", "reaction.Q"], lanes=1)
+    compiled = k([[x] for x in values])
+    swept = da.sweep(GOVERNOR, path, values, outputs=["angle.bell", "reaction.Q"])
+    for name in ("angle.bell", "reaction.Q"):
+        assert swept[name] == pytest.approx(compiled[name].reshape(swept[name].shape), abs=1e-9)
+    assert np.abs(swept["angle.bell"] - swept["angle.bell"][0]).max() < 0.2
+    for x, bell in zip(values, swept["angle.bell"], strict=True):
+        _, r = analyse_design(GOVERNOR, k.trace.numbers, np.array([x]), k.trace.course, k.trace.inertia)
+        assert r is not None
+        assert r.angle("bell") == pytest.approx(bell, abs=1e-9)
+
+
+def test_many_designs_stand_as_few_do() -> None:
+    """From 500 on a sweep is compiled."""
+    values = np.linspace(0.0, 1e-3, 501)
+    many = da.sweep(GOVERNOR, UP, values.tolist(), outputs="angle.bell")["angle.bell"]
+    few = da.sweep(GOVERNOR, UP, values[::100].tolist(), outputs="angle.bell")["angle.bell"]
+    assert many[::100] == pytest.approx(few, abs=1e-12)
+
+
+def four_bar(**more: Any) -> da.Mechanism:
+    tree = da.four_bar().to_tree()
+    tree.pop("assembly")
+    return da.mechanism(tree | more)
+
+
+def test_what_the_file_states_stays_and_so_does_what_begins_elsewhere() -> None:
+    m, stated = four_bar(), da.four_bar()
+    r = da.solve(m)
+    turn = r.turn_array[0]
+    assert in_mode(stated, r.compiled, turn) is stated
+    assert in_mode(m.with_values({"drives.O2.position": 1.0}), r.compiled, turn).assembly == {}
+    assert in_mode(m, r.compiled, np.full(3, np.nan)) is m
+    kept = in_mode(m.with_values({"links.coupler.mass": 3.0}), r.compiled, turn)
+    assert list(kept.assembly) == list(r.links)
+    assert da.solve(kept).force_array == pytest.approx(
+        da.solve(m.with_values({"links.coupler.mass": 3.0})).force_array
+    )
+    for other in (da.rssr(), da.planetary_train()):
+        tree = other.to_tree()
+        tree.pop("assembly", None)
+        bare = da.mechanism(tree)
+        result = da.solve(bare, positions=3)
+        assert in_mode(bare, result.compiled, np.zeros(len(result.links))) is bare
