@@ -61,8 +61,8 @@ def sweep(
     ``vary``: a path, with ``values``; or a mapping of paths to values: a grid, or with ``together`` value by value.
     Numbers are SI and radians, texts are read as in the file (``"3 lb"``). ``outputs``: names of quantities, default
     every effort, unknown load and reaction. Many numbers run compiled (`da.compile`), everything else by kept programs,
-    with the same answers, and all designs stand in the assembly mode of the first. ``progress``: called with (designs done, designs). Raises ModelError for a value that is
-    refused.
+    with the same answers; all designs stand in the assembly mode of the first. ``progress``: called with (designs done,
+    designs). Raises ModelError for a value that is refused.
 
     >>> import dalembert as da
     >>> s = da.sweep(da.four_bar(), "links.coupler.mass", [1.0, 2.0, 4.0], outputs="effort.O2")
