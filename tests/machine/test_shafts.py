@@ -322,8 +322,11 @@ def test_pieces_that_leave_a_gap_are_refused() -> None:
     text = text.replace("S: [0, 0], T: [0.4, 0]", "S: [0, 0], U: [0.1, 0], T: [0.4, 0]").replace(
         "[[S, T]]", "[[U, T]]"
     )
+    r = da.statics(da.loads(text))
     with pytest.raises(da.ModelError, match="links 'thick' and 'thin' of a shaft do not meet end to end"):
-        da.critical_speeds(da.statics(da.loads(text)), "thick")
+        da.critical_speeds(r, "thick")
+    with pytest.raises(da.ModelError, match="unknown link 'thik'; did you mean 'thick'"):
+        da.critical_speeds(r, "thik")
 
 
 def test_matrices_of_an_element_are_integrals_of_its_cubic_shapes() -> None:

@@ -26,6 +26,7 @@ from dalembert.machine.members.mass_along import mass_layout
 from dalembert.machine.shafts.beam_elements import Beam, BeamModel, PointMass, SpreadMass, beam_model
 from dalembert.machine.shafts.shaft_pieces import ShaftPiece, shaft_pieces
 from dalembert.printing import Part, TextTable, number
+from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -153,6 +154,8 @@ def critical_speeds(r: Result, link: str, count: int = 3) -> CriticalSpeeds:
     >>> speeds.round(1)                                      # pi^2 sqrt(E I / (m L^3)), then 4, 9 times
     array([ 638.4, 2553.5, 5745.4])
     """
+    if link not in r.mechanism.links:
+        raise ModelError(f"unknown link {link!r}", closest(link, list(r.mechanism.links)))
     section = r.mechanism.links[link].section
     where = ("links", link)
     if section is None or section.elasticity is None:
