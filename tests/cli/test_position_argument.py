@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +12,8 @@ import pytest
 import dalembert as da
 from dalembert.analysis.result.position_lookup import position_at
 from dalembert.bundled import cases, examples
-from dalembert.cli.documents.position_argument import position_alone, solve_at
+from dalembert.cli import main
+from dalembert.cli.documents.position_argument import TURNS, _path_to, position_alone, solve_at
 from tests.cli.conftest import Run
 
 R = da.dynamics(da.four_bar(), positions=37)
@@ -103,3 +105,25 @@ def test_a_value_that_the_drive_does_not_reach_has_no_number() -> None:
     assert da.kinematics(m).ok.all()
     r, _ = solve_at(m, "179 deg", static=True, positions=None)
     assert r.status == ("not_assembled",)
+
+
+@pytest.mark.parametrize("turns", [TURNS - 1, -(TURNS - 1), TURNS + 1, -(TURNS + 1), 1e9])
+def test_a_value_many_turns_away_is_gone_to_up_to_a_limit(turns: float) -> None:
+    m = da.load(examples()["four_bar"])
+    at = f"{60 + 360 * turns!r} deg"
+    if abs(turns) < TURNS:
+        way = _path_to(m, at)
+        assert way is not None
+        assert way[-1] == pytest.approx(np.radians(60 + 360 * turns))
+        return
+    with pytest.raises(
+        da.ModelError, match=f"is more than {TURNS} turns from that of drive 'O2' in the file"
+    ):
+        solve_at(m, at, static=True, positions=None)
+
+
+def test_a_shaft_without_a_name_is_no_shaft(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "shaft.yaml"
+    da.rotating_shaft().save(file)
+    assert main(["shaft", str(file), "--link", ""]) == 2
+    assert "unknown link ''" in capsys.readouterr().err

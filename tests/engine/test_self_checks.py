@@ -233,3 +233,16 @@ def test_first_poses_are_remembered_up_to_a_number(monkeypatch: pytest.MonkeyPat
     (program,) = (k for k in structures.STRUCTURES.found.values() if isinstance(k, structures.KeptProgram))
     assert len(program.known) == 3
     assert quick_pass.BLOCK == structures.BLOCK
+
+
+def test_moments_are_compared_with_forces_by_the_length() -> None:
+    """Of the plane's rows those of moments of joints, and the last of each link's loads, which is its couple."""
+    c = compile_mechanism(da.four_bar(), da.four_bar().schedule(3))
+    ready = structures.ready(c, True)
+    assert ready is not None
+    k = ready.program
+    loads = k.nodes["loads"]
+    forces, moments = k.nodes["force"].size, k.nodes["moment"].size
+    assert k.moments.tolist() == [False] * forces + [True] * moments + [False, False, True] * (
+        loads.size // 3
+    )

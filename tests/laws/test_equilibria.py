@@ -117,3 +117,30 @@ def test_what_does_not_close_is_searched_for_once(monkeypatch: pytest.MonkeyPatc
     assert r.stability is not None
     assert scans[0] > 100
     assert max(scans[1:]) <= 3
+
+
+def held(effort: str, free: str) -> str:
+    """A rod on a spring whose ends coincide at every position, with an effort that it never needs."""
+    return f"""
+links:
+  ground: {{points: {{O: [0, 0]}}}}
+  rod: {{points: {{O: [0, 0], A: [1, 0]}}, mass: 2, center: [1, 0]}}
+joints: {{O: {{type: pin, links: [ground, rod]}}}}
+drives: {{O: {{position: unknown, range: [0, 90], effort: {effort}}}}}
+loads: {{s: {{type: spring, between: [rod.O, ground.O], stiffness: 9, free_length: {free}}}}}
+gravity: standard
+"""
+
+
+def test_where_nothing_balances_it_is_said_why() -> None:
+    r = da.statics(da.loads(held("100 N*m", "0 m")))
+    assert r.status == ("no_balance",)
+    assert "the effort needed differs from the given one by -100 N*m to -80.3867 N*m" in str(r.reasons[0])
+    r = da.statics(da.loads(held("0 N*m", "1 m")))
+    assert r.status == ("no_balance",)
+    assert "No position of O in its range has an answer: The ends of spring s (9 N) coincide" in str(
+        r.reasons[0]
+    )
+    for drawn in (da.draw.mechanism, da.draw.free_bodies, da.draw.question):
+        with pytest.raises(da.AnalysisError, match="position 1: No position of O in its range has an answer"):
+            drawn(r)

@@ -13,7 +13,7 @@ from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.core import bands
 from dalembert.core.constraints import dense, stack_rows
-from dalembert.core.factor import damped_step, displacement, displacements, factor
+from dalembert.core.factor import damped_step, displacement, displacements, factor, row_scale, sparse
 from dalembert.core.position.assur_groups import match_columns, strong_components
 from dalembert.kernel.elimination import components, maximum_matching
 
@@ -134,3 +134,16 @@ def test_steps_of_more_constraints_than_unknowns_are_the_shortest_of_least_squar
         rows.on_i[:], rows.on_j[:] = 0.0, 0.0
         assert not displacement(layout, rows, gaps[:1]).any()
         assert not displacements(layout, rows, gaps)[0].any()
+
+
+@pytest.mark.parametrize("links", [40, 60])
+def test_condition_numbers_of_long_chains_are_estimated_unless_they_are_not_wanted(links: int) -> None:
+    r = da.solve(chain(links), positions=1)
+    layout, pose = r.compiled.layout, full_pose(r)
+    rows, scale = stack_rows(layout, pose), row_scale(layout, layout.stack.angular)
+    found = sparse(layout, rows, scale, layout.column_scale)
+    matrix = dense(layout, rows)[0] * scale[:, None] * layout.column_scale
+    exact = 1 / np.linalg.cond(matrix, 1)
+    assert exact <= found.rcond[0] * (1 + 1e-9)
+    assert found.rcond[0] < 10 * exact
+    assert sparse(layout, rows, scale, layout.column_scale, condition=False).rcond.tolist() == [1.0]

@@ -279,3 +279,19 @@ def test_a_throw_welded_to_the_shaft_is_one_of_the_engine(welded: str) -> None:
     expected = pin * 0.05 * 300**2 * np.stack([np.cos(q), np.sin(q)], -1)
     expected[:, 0] += gudgeon * going
     assert light.force == pytest.approx(expected, abs=1e-9 * np.abs(expected).max())
+
+
+def test_the_table_of_harmonics_has_the_exact_ones_and_the_books() -> None:
+    """Of four cylinders in line the first order is 0, but for rounding; the book has the second, and no fourth."""
+    r = da.dynamics(da.in_line_engine())
+    table = next(part for part in da.shaking(r).text().split("\n\n") if part.startswith("inertia  order"))
+    rows = {int(row.split()[2]): [float(x) for x in row.split()[3:]] for row in table.splitlines()[2:6]}
+    e = da.engine_series(r)
+    q = r.drive_position("O")
+    exact, book = (da.harmonics(v, q, [1, 2, 4, 6]) for v in (e.exact.parts["inertia"][0], e.force))
+    assert list(rows) == [1, 2, 4, 6]
+    for k, row in enumerate(rows.values()):
+        sizes = [abs(h[k]) for h in (exact.forward, exact.backward, book.forward, book.backward)]
+        assert row == pytest.approx(sizes, rel=1e-5, abs=1e-6)
+    assert rows[1] == [0, 0, 0, 0]
+    assert rows[4][:2] > rows[4][2:] == [0, 0]

@@ -254,3 +254,17 @@ def test_a_flat_tappet_is_judged_by_its_curvature_and_its_least_force(speed: int
     k = int(push.argmin())
     assert contact.value == f"least normal force {push[k]:.4f} N"
     assert contact.at.endswith(f"(no. {k + 1})")
+
+
+@pytest.mark.parametrize("speed", [20, -20])
+def test_the_torque_of_a_clutch_is_given_by_its_size(speed: float) -> None:
+    """Either way round, at the position where it is largest."""
+    r = da.solve(changed("plate_clutch", "drives", "A", speed=f"{speed} rad/s"), positions=1)
+    (name,) = (n for n, j in r.mechanism.joints.items() if j.BRAKES)
+    verdict = next(
+        v
+        for part in element_parts(DesignContext(r, 0, da.Notation()))
+        for v in part.verdicts
+        if v.item == f"torque of {name}"
+    )
+    assert float(verdict.value.split()[0]) == pytest.approx(abs(float(r.brake(name).torque[0])), rel=1e-4)

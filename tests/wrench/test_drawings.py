@@ -306,3 +306,13 @@ def test_what_is_far_off_is_said() -> None:
     low = np.min([a.tail for a in shifted.arrows() if a.kind == "force"], axis=0)
     assert axes[0].tail[0] < low[0]
     assert axes[0].tail[1] < low[1]
+
+
+def test_panels_of_many_forces_stand_in_a_column_of_a_page() -> None:
+    """The system, its polygon and what it is at another point: no wider together than 240 mm."""
+    wide = [Force([0, -1 - k], at=[4.0 * k, 0]) for k in range(4)]
+    drawn = da.draw.force_system(System(*wide, title="A beam"), at=[1, 1])
+    left, _, right, _ = drawn.bounds
+    assert right - left <= 240 + 1e-9
+    assert drawn.title == "A beam"
+    assert text_overlaps(drawn) == []

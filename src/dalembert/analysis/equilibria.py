@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule, some_positions
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.result.result import Result
+from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Array, Flags, Ints, Tree
 from dalembert.model import Mechanism, Schedule
 
@@ -194,11 +196,14 @@ def _none(scan: _Scan, q: Array, g: Array) -> Result:
     blank: Tree = {n: np.full_like(v, np.nan) for n, v in arrays.items()}
     position = np.full_like(result.schedule.position, np.nan)
     compiled = replace(result.compiled, schedule=replace(result.schedule, position=position))
-    low, high = (float(np.nanmin(g)), float(np.nanmax(g))) if np.isfinite(g).any() else (np.nan, np.nan)
-    sentence = (
-        f"No position of {scan.name} in its range is in equilibrium: the effort needed differs from the given one by "
-        f"{low:.6g} to {high:.6g}. Change the effort or widen the range."
-    )
+    sentence = f"No position of {scan.name} in its range has an answer: {result.reasons[0]}"
+    if np.isfinite(g).any():
+        kind = drive_kinds(result, scan.name)["effort"]
+        ends = " to ".join(quantity_text(compiled, kind, float(x)) for x in (np.nanmin(g), np.nanmax(g)))
+        sentence = (
+            f"No position of {scan.name} in its range is in equilibrium: the effort needed differs from the given one "
+            f"by {ends}. Change the effort or widen the range."
+        )
     return replace(
         result, compiled=compiled, status=("no_balance",), reasons=(sentence,), stability=(None,), **blank
     )

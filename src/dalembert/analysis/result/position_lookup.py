@@ -109,7 +109,7 @@ def position_at(r: Result, at: PositionChoice = None) -> int:
     that has none.
     """
     k = _place(r, at)
-    if r.status[k] == "not_assembled":
+    if not np.isfinite(r.point_array[k]).all():
         raise AnalysisError(f"position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
     return k
 

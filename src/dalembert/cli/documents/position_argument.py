@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from dalembert.errors import ModelError
+
 if TYPE_CHECKING:
     from dalembert.analysis import Result
     from dalembert.arrays import Tree
@@ -14,6 +16,9 @@ if TYPE_CHECKING:
 
 OK, SOME_NOT_OK = 0, 1
 """Exit statuses."""
+
+TURNS = 100
+"""Turns through which a drive is followed from the file's position to another one."""
 
 
 def solve_at(m: Mechanism, at: str | None, static: bool, positions: int | None) -> tuple[Result, str | None]:
@@ -106,5 +111,10 @@ def _path_to(m: Mechanism, at: str) -> list[float] | None:
     end = quantity(at, "length" if slides else "angle", file_units(m.units))
     if abs(end - start) < 1e-9:
         return None
+    if not slides and abs(end - start) > 2 * np.pi * TURNS:
+        what = (
+            f"position {at} is more than {TURNS} turns from that of drive {schedule.names[0]!r} in the file"
+        )
+        raise ModelError(what, "give one within a turn of it")
     count = 40 if slides else max(2, int(np.ceil(abs(end - start) / 0.05)) + 1)
     return [float(v) for v in np.linspace(start, end, count)]

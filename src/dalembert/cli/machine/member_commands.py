@@ -108,7 +108,7 @@ def shaft(
     if link is None and not elastic:
         remedy = "add section: {circle: 50 mm, elasticity: 210 GPa} to a link"
         raise ModelError("no link has a section with elasticity", remedy).at_source(r.mechanism.source)
-    answer(r, lambda r: critical_speeds(r, link or elastic[0], count), out)
+    answer(r, lambda r: critical_speeds(r, elastic[0] if link is None else link, count), out)
     return 0
 
 
