@@ -10,7 +10,9 @@ import pytest
 import dalembert as da
 from dalembert.analysis.batch.careful_path import analyse_design
 from dalembert.analysis.batch.tracing.course import in_mode
+from dalembert.analysis.batch.tracing.symbolic_model import with_numbers
 from dalembert.bundled import cases
+from tests.kernel.comparing import changed, difference, every_number
 
 GOVERNOR = da.load(cases()["gov-14-hartnell-governor"])
 """Drawn as it stands. Where its bell is not as drawn the rule of the search would turn it over."""
@@ -50,11 +52,11 @@ def four_bar(**more: Any) -> da.Mechanism:
 def test_what_the_file_states_stays_and_so_does_what_begins_elsewhere() -> None:
     m, stated = four_bar(), da.four_bar()
     r = da.solve(m)
-    turn = r.turn_array[0]
-    assert in_mode(stated, r.compiled, turn) is stated
-    assert in_mode(m.with_values({"drives.O2.position": 1.0}), r.compiled, turn).assembly == {}
-    assert in_mode(m, r.compiled, np.full(3, np.nan)) is m
-    kept = in_mode(m.with_values({"links.coupler.mass": 3.0}), r.compiled, turn)
+    pose = r.point_array[0], r.turn_array[0]
+    assert in_mode(stated, r.compiled, *pose) is stated
+    assert in_mode(m.with_values({"drives.O2.position": 1.0}), r.compiled, *pose).assembly == {}
+    assert in_mode(m, r.compiled, np.full((3, 2), np.nan), pose[1]) is m
+    kept = in_mode(m.with_values({"links.coupler.mass": 3.0}), r.compiled, *pose)
     assert list(kept.assembly) == list(r.links)
     assert da.solve(kept).force_array == pytest.approx(
         da.solve(m.with_values({"links.coupler.mass": 3.0})).force_array
@@ -64,4 +66,20 @@ def test_what_the_file_states_stays_and_so_does_what_begins_elsewhere() -> None:
         tree.pop("assembly", None)
         bare = da.mechanism(tree)
         result = da.solve(bare, positions=3)
-        assert in_mode(bare, result.compiled, np.zeros(len(result.links))) is bare
+        assert in_mode(bare, result.compiled, result.point_array[0], result.turn_array[0]) is bare
+
+
+@pytest.mark.parametrize("seed", [3, 4, 5])
+def test_a_follower_stays_on_its_side_of_a_cam_of_other_geometry(seed: int) -> None:
+    """A roller touches the cam on both sides of it, with the same angles: what the careful path computes in place of
+    Newton's steps that have not converged is on the file's side."""
+    m = da.disc_cam().with_values({"links.cam.center": [0.15, 0.0]})
+    k = da.compile(m, vary=every_number(m), lanes=1)
+    values = changed(k, seed, 0.2)
+    b = k([values])
+    design = k.trace.course.in_mode(with_numbers(m, k.trace.numbers, values.tolist()))
+    assert [*design.assembly] == ["cam", "follower"]
+    g = da.dynamics(design, method="careful")
+    assert np.sign(g.point("follower", "F")[0, 1]) == np.sign(da.solve(m).point("follower", "F")[0, 1])
+    assert list(b.status[0]) == list(g.status)
+    assert difference(k, b, 0, g) < 1e-9

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED, first_mark
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.course import PositionPath, in_mode
+from dalembert.analysis.batch.tracing.course import PositionPath
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, with_numbers
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.named_quantities import quantity as read_quantity
@@ -132,7 +132,7 @@ def analyse_design(
     if not np.isfinite(values).all():
         return np.full(count, CODES.index("failed"), np.uint8), None
     try:
-        design = in_mode(with_numbers(m, numbers, values.tolist()), course.followed.compiled, course.turn)
+        design = course.in_mode(with_numbers(m, numbers, values.tolist()))
         result = at_schedule(design, _schedule(design, schedule), inertia, method="careful")
     except DalembertError:
         return np.full(count, CODES.index("failed"), np.uint8), None

@@ -179,7 +179,9 @@ def _analysis(
 ) -> Result:
     """One design, in the assembly mode of another."""
     one = m.with_values(dict(zip(paths, design, strict=True)))
-    return solve(one if like is None else in_mode(one, like.compiled, like.turn_array[0]), static, positions)
+    if like is not None:
+        one = in_mode(one, like.compiled, like.point_array[0], like.turn_array[0])
+    return solve(one, static, positions)
 
 
 class _Answers(NamedTuple):

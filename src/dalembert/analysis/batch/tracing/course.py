@@ -77,10 +77,9 @@ class PositionPath:
             a[lost] = np.nan
         return Pose(*parts)
 
-    @property
-    def turn(self) -> Array:
-        """Angles (L,) of the links at the first position, NaN where it does not close."""
-        return self.pose.turn[0, :-1]
+    def in_mode(self, m: Mechanism) -> Mechanism:
+        """A design in the assembly mode of this one."""
+        return in_mode(m, self.followed.compiled, self.pose.point[0, :-1], self.pose.turn[0, :-1])
 
     @cached_property
     def first(self) -> int:
@@ -155,17 +154,19 @@ def _poses_with_ground(result: Result) -> Pose:
     return Pose(point, *result.compiled.layout.algebra.with_ground(result.turn_array, result.rotation_array))
 
 
-def in_mode(m: Mechanism, like: Compiled, turn: Array) -> Mechanism:
-    """A design with the assembly mode of another, whose links have the angles ``turn`` (L,) at its first position.
+def in_mode(m: Mechanism, like: Compiled, place: Array, turn: Array) -> Mechanism:
+    """A design with the assembly mode of another, whose links have the places (L, 2) and angles (L,) at its first
+    position.
 
     As it is where its file states angles, in space, where it begins elsewhere, and where phases follow from the first
     pose.
     """
-    if m.assembly or not isinstance(like.guess, Guess) or not np.isfinite(turn).all():
+    if m.assembly or not isinstance(like.guess, Guess) or not np.isfinite(place).all():
         return m
     if phase_rows(like.layout.constraints).size:
         return m
     begins = (s.position[0] for s in (m.schedule(), like.schedule))
     if not np.array_equal(*begins):
         return m
-    return m.model_copy(update={"assembly": dict(zip(like.links, turn.tolist(), strict=True))})
+    poses = ((*at, angle) for at, angle in zip(place.tolist(), turn.tolist(), strict=True))
+    return m.model_copy(update={"assembly": dict(zip(like.links, poses, strict=True))})
