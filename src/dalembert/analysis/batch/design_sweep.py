@@ -74,7 +74,8 @@ def sweep(
     shape = _shape(varied, together)
     designs = list(zip(*varied.values(), strict=True) if together else product(*varied.values()))
     labels = {path: _labels(m, path, of) for path, of in varied.items()}
-    nominal = _analysis(m, tuple(varied), designs[0], static, positions)
+    changes = (dict(zip(varied, design, strict=True)) for design in designs)
+    nominal = _analysis(m, dict(zip(varied, designs[0], strict=True)), static, positions)
     wanted = [outputs] if isinstance(outputs, str) else outputs
     names = _kept(nominal) if wanted is None else wanted
     like = {name: quantity(nominal, name) for name in names}
@@ -92,7 +93,7 @@ def sweep(
             )  # else designs behind the first may have inertia
         answers = _compiled(nominal, tuple(varied), designs, like, tell) if compiled else None
         if answers is None:
-            results = (_analysis(m, tuple(varied), design, static, positions, nominal) for design in designs)
+            results = (_analysis(m, changed, static, positions, nominal) for changed in changes)
             answers = _collected(results, like, len(designs), tell)
     kinds = {name: q.kind for name, q in like.items()}
     return Sweep(m, dict(labels), together, kinds, nominal, answers.shaped(shape))
@@ -170,15 +171,10 @@ def _kept(r: Result) -> list[str]:
 
 
 def _analysis(
-    m: Mechanism,
-    paths: Sequence[str],
-    design: Sequence[object],
-    static: bool,
-    positions: AtPositions,
-    like: Result | None = None,
+    m: Mechanism, changes: Tree, static: bool, positions: AtPositions, like: Result | None = None
 ) -> Result:
     """One design, in the assembly mode of another."""
-    one = m.with_values(dict(zip(paths, design, strict=True)))
+    one = m.with_values(changes)
     if like is not None:
         one = in_mode(one, like.compiled, like.point_array[0], like.turn_array[0])
     return solve(one, static, positions)

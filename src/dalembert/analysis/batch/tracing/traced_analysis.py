@@ -112,8 +112,7 @@ def trace_analysis(
     schedule = _schedule(m, moves)
     course = PositionPath(m, schedule, solved, inertia)
     check_knowns(course.compiled)
-    repeated = _check(course, redundant)
-    where = numbers(m, vary)
+    repeated, where = _check(course, redundant), numbers(m, vary)
     moved = [n for n in where if geometric(m, n.path)]
     _check_space(course.compiled, moved)
     graph = Graph()
