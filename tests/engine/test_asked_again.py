@@ -63,6 +63,14 @@ def no_masses(mass: float) -> da.Mechanism:
     )
 
 
+def pushed(degrees: float) -> da.Mechanism:
+    """Two bars, held by an unknown force along the second one, which has no power where both are in one line."""
+    tree = da.load(cases()["vw-04-two-bars-held-at-the-foot"]).to_tree()
+    tree["loads"]["Cx"] |= {"direction": 0, "axes": "link"}
+    tree["drives"]["A"]["position"] = f"{degrees} deg"
+    return da.mechanism(tree)
+
+
 PLATE = "dk-04-plate-on-two-links"
 MET: dict[str, tuple[Any, str]] = {
     "dead centre": (lambda: changed(PLATE, drives__E__position=np.pi / 2), "singular"),
@@ -75,6 +83,8 @@ MET: dict[str, tuple[Any, str]] = {
     "ends apart": (lambda: spring(1), "ok"),
     "nothing balances": (lambda: no_masses(0), "no_balance"),
     "a mass balances": (lambda: no_masses(1), "ok"),
+    "a load without power": (lambda: pushed(180), "no_balance"),
+    "a load with little": (lambda: pushed(179), "ok"),
 }
 
 

@@ -28,6 +28,7 @@ from dalembert.core.forcing import Forcing, WrenchSource, pair, total_wrench
 from dalembert.core.geometry import arm
 from dalembert.core.layout import BeltMesh, ConstraintRows, Gearing, Helix, Layout, Mesh, Pose, Rows
 from dalembert.core.linear import Factor, PseudoInverse, compliant
+from dalembert.core.rank import singular_below
 
 
 @dataclass(frozen=True)
@@ -202,6 +203,20 @@ def check_equilibrium(
     pushed = fc.between_wheels(layout, forcing, pose, moving.twist, x)
     parts = (x[..., :count], effort, x[..., count + count_efforts :])
     return Equilibrium(*parts, residual, power, s.forces.rcond, free, pushed)
+
+
+NEAR = 1e-5
+"""Squared pivot over its usual size below which programs leave a position to the careful path."""
+
+
+def usual(layout: Layout, known: Known, pose: Pose) -> Flags:
+    """True at poses (P, L+1, ...) from whose pivots those of other positions can be judged: so far from singular ones,
+    and from those at which unknown loads have no power, that no pivot which is small beside theirs passes."""
+    rows = stack_rows(layout, pose)
+    rcond = factor(layout, rows).rcond
+    if known.link.size or not known.requested.all():
+        rcond = np.minimum(rcond, factor(layout, _unknowns(layout, known, pose, rows)).rcond)
+    return np.asarray(rcond > singular_below(layout) / np.sqrt(NEAR))
 
 
 def _unknowns(layout: Layout, known: Known, pose: Pose, rows: ConstraintRows) -> ConstraintRows:

@@ -33,17 +33,6 @@ def singular_below(layout: Layout) -> float:
     return SINGULAR / max(1.0, layout.links / 10) ** 3
 
 
-NEAR = 1e-5
-"""Squared pivot over its usual size below which programs leave a position to the careful path."""
-
-
-def usual(layout: Layout, pose: Pose) -> Flags:
-    """True at poses (P, L+1, ...) from whose pivots those of other positions can be judged: so far from singular ones
-    that no pivot which is small beside theirs passes."""
-    rcond = factor(layout, stack_rows(layout, pose)).rcond
-    return np.asarray(rcond > singular_below(layout) / np.sqrt(NEAR))
-
-
 def is_rigid(layout: Layout, pose: Pose) -> bool:
     """True if constraints and drives leave no link free at this pose."""
     rcond = factor(layout, stack_rows(layout, pose.at(None))).rcond[0]

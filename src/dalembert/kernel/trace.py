@@ -19,6 +19,7 @@ from dalembert.core.elements.cam_rows import jump_margins
 from dalembert.core.elements.pushing import Pushing, contact_margins, forces_at_speed
 from dalembert.core.elements.turning_frame import turning_square
 from dalembert.core.equilibrium import (
+    NEAR,
     Equilibrium,
     Known,
     Statement,
@@ -37,7 +38,6 @@ from dalembert.core.layout import Angle, ConstraintRows, Layout, Pose
 from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_places, held_wheels, phase_rows, with_rows
 from dalembert.core.position.newton import CLOSED, gap
-from dalembert.core.rank import NEAR
 from dalembert.kernel.doubts import largest, uncertain, unheld, unmet
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction

@@ -28,6 +28,7 @@ from dalembert.analysis.result.force_arrays import Friction, SolvedForces
 from dalembert.analysis.status.statuses import UNBALANCED
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.core.branchless import top
+from dalembert.core.equilibrium import usual
 from dalembert.core.friction.contact_equations import (
     argument,
     jacobian,
@@ -38,7 +39,6 @@ from dalembert.core.friction.contact_equations import (
 )
 from dalembert.core.friction.losses import friction_arrays
 from dalembert.core.layout import Pose
-from dalembert.core.rank import usual
 from dalembert.kernel.doubts import uncertain
 from dalembert.kernel.elimination import structural
 from dalembert.kernel.friction_trace import trace_slip
@@ -77,7 +77,7 @@ def trace_forces(c: Compiled, pose: Pose, numbers: Numbers, inertia: bool) -> Fo
     graph = Graph()
     known = np.flatnonzero(np.isfinite(pose.point).all(axis=(1, 2)))
     some = known[np.linspace(0, len(known) - 1, min(len(known), SAMPLES)).astype(int)]
-    some = some[usual(c.layout, pose.at(some))]
+    some = some[usual(c.layout, c.known, pose.at(some))]
     if not some.size:
         raise DeadCentreError
     symbols = with_nodes(graph, c, numbers._replace(columns=numbers.columns[:, some]), pose)

@@ -17,10 +17,9 @@ import numpy as np
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.flat_numbers import Numbers, Symbols, with_nodes
 from dalembert.arrays import Array, Flags, Ints, Numeric
-from dalembert.core.equilibrium import relative
+from dalembert.core.equilibrium import relative, usual
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.assembly_modes import counted_links
-from dalembert.core.rank import usual
 from dalembert.kernel.doubts import uncertain
 from dalembert.kernel.emit.numpy_program import NumpyProgram
 from dalembert.kernel.graph import CONSTANT, INPUTS, Graph, Node, Scalar, trace_array
@@ -178,8 +177,6 @@ class DeadCentreError(Exception):
 
 def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) -> KeptProgram | None:
     """The program of a mechanism whose first pose (L+1, ...) is known; None where it needs more than its numbers."""
-    if not usual(c.layout, pose.at(None)).all():
-        raise DeadCentreError
     graph = Graph()
     numbers = numbers._replace(columns=numbers.columns[:, 0])
     symbols = with_nodes(graph, c, numbers)
@@ -198,8 +195,16 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
         traced = trace(problem_of(graph, symbols, c, inertia, path, branches))
     except (ValueError, TypeError, KeyError):  # no closed form, or none that its numbers alone decide
         return None
+    if not usual(c.layout, c.known, _sampled(graph, traced.pose)).all():
+        raise DeadCentreError
     graph.samples.clear()
     return _kept(graph, symbols, traced, branches, c)
+
+
+def _sampled(graph: Graph, pose: Pose) -> Pose:
+    """The first pose (1, L+1, ...), by whose pivots those of other positions are judged."""
+    parts = (graph.evaluate(trace_array(graph, a).ravel(), {}) for a in pose)
+    return Pose(*(np.array(x, float).reshape(1, *np.shape(a)) for x, a in zip(parts, pose, strict=True)))
 
 
 def problem_of(

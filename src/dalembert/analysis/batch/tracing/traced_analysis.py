@@ -34,13 +34,12 @@ from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import stack_rows, system
 from dalembert.core.elements.strand_family import Strand
 from dalembert.core.elements.strand_rows import strands
-from dalembert.core.equilibrium import UNIQUE, Known
+from dalembert.core.equilibrium import UNIQUE, Known, usual
 from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing, WrenchSource
 from dalembert.core.gear_rows import gearings
 from dalembert.core.layout import Family, Gearing, Idle, Layout, Pose
 from dalembert.core.linear import PseudoInverse
-from dalembert.core.rank import usual
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, node, trace_array
 from dalembert.kernel.trace import Traced, TracedProblem, trace
@@ -143,7 +142,7 @@ def trace_analysis(
         contacts=like_contacts(description, c.contacts, m, like.contacts),
         at_pose=_pushes(inputs, c, pushed, _pose_loads(inputs, c, functions_of(graph))),
         pushing=c.pushing,
-        usual=usual(like.layout, course.pose),
+        usual=usual(like.layout, like.known, course.pose),
         moves=moves,
         side=inputs.side() if sided else None,
         redundant=repeated,
