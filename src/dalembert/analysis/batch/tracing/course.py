@@ -158,10 +158,11 @@ def in_mode(m: Mechanism, like: Compiled, place: Array, turn: Array) -> Mechanis
     """A design with the assembly mode of another, whose links have the places (L, 2) and angles (L,) at its first
     position.
 
-    As it is where its file states angles, in space, where it begins elsewhere, and where phases follow from the first
-    pose.
+    As it is where it states another assembly, in space, where it begins elsewhere, and where phases follow from the
+    first pose.
     """
-    if m.assembly or not isinstance(like.guess, Guess) or not np.isfinite(place).all():
+    stated = m.assembly != like.mechanism.assembly
+    if stated or not isinstance(like.guess, Guess) or not np.isfinite(place).all():
         return m
     if phase_rows(like.layout.constraints).size:
         return m
