@@ -61,7 +61,7 @@ def sweep(
     ``vary``: a path, with ``values``; or a mapping of paths to values: a grid, or with ``together`` value by value.
     Numbers are SI and radians, texts are read as in the file (``"3 lb"``). ``outputs``: names of quantities, default
     every effort, unknown load and reaction. Many numbers run compiled (`da.compile`), everything else by kept programs,
-    with the same answers; all designs stand in the assembly mode of the first. ``progress``: called with (designs done,
+    with the same answers; all designs have the assembly mode of the first. ``progress``: called with (designs done,
     designs). Raises ModelError for a value that is refused.
 
     >>> import dalembert as da

@@ -171,8 +171,8 @@ class KeptProgram(TracedOutputs):
 
 
 class DeadCentreError(Exception):
-    """Raised where both branches of a group coincide, or its pose does not identify one, or pivots are small there: it
-    is traced in another pose."""
+    """Raised where both branches of a group coincide, or its pose does not identify one, or has small pivots: it is
+    traced in another pose."""
 
 
 def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) -> KeptProgram | None:
