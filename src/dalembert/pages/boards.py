@@ -73,9 +73,10 @@ class Boards:
         self.frame = self.items.frame
         self.shown = Shown(known, Notation())
         self.numbered = _numbered(known, actions)
+        self.acting = [self._acting(a) for a in actions]
 
     def at_pose(self, rows: NodeRows, actions: Sequence[Action]) -> Boards:
-        """The same contents, of the same result, at another pose in nodes."""
+        """The same contents, of the same result, at another pose in nodes, where nothing is known to be zero."""
         other = copy(self)
         other.rows, other.actions = rows, actions
         other.items = replace(self.items, r=rows.r, rows=rows)
@@ -196,32 +197,38 @@ class Boards:
         """True if any node is not identically zero."""
         return any((x.level != CONSTANT or x.value != 0) if isinstance(x, Node) else x != 0 for x in values)
 
+    def _acting(self, a: Action) -> tuple[bool, bool]:
+        """True for a force and for a couple that are not identically zero."""
+        return self._has(a.force[0]), self._has(np.ravel(a.couple))
+
     def _arrows_apart(self, k: int) -> list[Tree]:
         """The arrows of an action on a free body; those of belts and ropes as the pulls of their strands."""
         a, real = self.actions[k], self.numbered[k]
         if a.kind != "joint" or not self.known.mechanism.joints[a.of].WRAPPED:
             return self.arrows(k, tangent=True)
         pulls = zip(pulls_of(self.rows.r, self.known, a), pulls_of(self.known, self.known, real), strict=True)
-        return [x for one, number in pulls for x in self._arrows(one, number)]
+        return [x for one, number in pulls for x in self._arrows(one, number, self._acting(one))]
 
     def arrows(self, k: int, tangent: bool = False) -> list[Tree]:
         """Force and couple of an action; ``tangent``: a pin's force on its friction circle, without the couple."""
-        return self._arrows(self.actions[k], self.numbered[k], tangent)
+        return self._arrows(self.actions[k], self.numbered[k], self.acting[k], tangent)
 
-    def _arrows(self, a: Action, real: Action, tangent: bool = False) -> list[Tree]:
-        out = list[Tree]()
+    def _arrows(
+        self, a: Action, real: Action, acting: tuple[bool, bool], tangent: bool = False
+    ) -> list[Tree]:
+        out, (pushes, turns) = list[Tree](), acting
         role = role_of(a.kind)
         self.items.roles.add(role)
         at, force, couple = a.at[0], a.force[0], np.ravel(a.couple)
         if tangent and a.kind == "joint" and self.items.circle_radius(a.of) is not None:
             x, y = force
             arm = couple[0] / (x * x + y * y).larger(1e-300)  # 0 where there is no force
-            at, couple = (at[0] + arm * y, at[1] - arm * x), np.zeros(1)
+            at, turns = (at[0] + arm * y, at[1] - arm * x), False
         base: Tree = {"role": role, "of": a.of, "kind": a.kind, "link": a.link, "p": self.rows.vector(at)}
         largest = _largest(real.force)
-        if self._has(force) and (largest > 0 or a.kind == "joint"):
+        if pushes and (largest > 0 or a.kind == "joint"):
             out.append({"t": "force", "f": self.rows.vector(force), "name": self.shown.symbol(real)} | base)
-        if self._has(couple) and _largest(real.couple) > 1e-12 * max(1.0, largest):
+        if turns and _largest(real.couple) > 1e-12 * max(1.0, largest):
             sense = "couple" if self.d == 2 else "moment"
             out.append(
                 {"t": sense, "m": self.rows.vector(couple), "name": self.shown.turning_symbol(real)} | base

@@ -70,7 +70,8 @@ def _closing(m: Mechanism, drive: str, values: Array, middle: int) -> Flags:
     if [graph.names[n.index] for n in channels] != [f"position {drive}"]:
         return np.ones(len(values), bool)
     tests = graph.evaluate(program.flags.open, {channels[0].index: values})
-    return np.asarray(np.array([np.broadcast_to(np.asarray(t) >= 0, len(values)) for t in tests]).all(axis=0))
+    met = [np.broadcast_to(np.asarray(t) >= 0, len(values)) for t in tests]
+    return np.asarray(np.all([np.ones(len(values), bool), *met], axis=0))
 
 
 def _reach(m: Mechanism) -> float:
