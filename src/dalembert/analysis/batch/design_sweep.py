@@ -173,9 +173,9 @@ def _kept(r: Result) -> list[str]:
 def _analysis(
     m: Mechanism, changes: Tree, static: bool, positions: AtPositions, like: Result | None = None
 ) -> Result:
-    """One design, in the assembly mode of another."""
+    """One design, in the assembly mode of another that begins where it does."""
     one = m.with_values(changes)
-    if like is not None:
+    if like is not None and np.array_equal(one.schedule(positions).position[0], like.schedule.position[0]):
         one = in_mode(one, like.compiled, like.point_array[0], like.turn_array[0])
     return solve(one, static, positions)
 
