@@ -195,6 +195,11 @@ def test_what_is_deleted_while_it_is_dragged_is_let_go(tabs: Any, tmp_path: Path
         assert "P" not in da.loads(s.text).links["coupler"].points
 
 
+HANDLE = """[...document.querySelectorAll('.pane.forces:not(.stale) .handle.joint')]
+.map(e => e.getBoundingClientRect()).filter(b => b.width).map(b => [b.x + b.width / 2, b.y + b.height / 2]).at(-1)"""
+"""The middle of a joint that can be dragged in the forces."""
+
+
 @pytest.mark.long
 def test_a_drag_in_the_forces_that_is_taken_back_is_taken_back_there_too(tabs: Any, tmp_path: Path) -> None:
     """At once, before the forces of what was dragged are known, and after."""
@@ -206,10 +211,8 @@ def test_a_drag_in_the_forces_that_is_taken_back_is_taken_back_there_too(tabs: A
         s.until("studio.solved()")
         text, effort = s.text, s.effort()
         for wait in (0, 0, 3000):
-            handle = s.page.locator(".pane.forces .handle.joint:visible").last
-            handle.wait_for()
-            box = handle.bounding_box()
-            x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+            s.until(f"!!({HANDLE})")
+            x, y = s.page.evaluate(HANDLE)
             s.page.mouse.move(x, y)
             s.page.mouse.down()
             s.page.mouse.move(x + 20, y + 15, steps=3)

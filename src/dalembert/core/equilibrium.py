@@ -18,16 +18,16 @@ import numpy as np
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import forcing as fc
-from dalembert.core.constraints import drift, rates, stack_rows
+from dalembert.core.constraints import dense, drift, rates, stack_rows
 from dalembert.core.elements.cam_family import CamRow
 from dalembert.core.elements.linings import BandStrands, Lining
 from dalembert.core.elements.strand_family import Strand
 from dalembert.core.elements.turning_frame import centrifugal, turning_square
-from dalembert.core.factor import factor
+from dalembert.core.factor import SPARSE, factor
 from dalembert.core.forcing import Forcing, WrenchSource, pair, total_wrench
 from dalembert.core.geometry import arm
 from dalembert.core.layout import BeltMesh, ConstraintRows, Gearing, Helix, Layout, Mesh, Pose, Rows
-from dalembert.core.linear import Factor, PseudoInverse, compliant
+from dalembert.core.linear import Factor, PseudoInverse, compliant, inverse
 from dalembert.core.rank import singular_below
 
 
@@ -213,10 +213,23 @@ def usual(layout: Layout, known: Known, pose: Pose) -> Flags:
     """True at poses (P, L+1, ...) from whose pivots those of other positions can be judged: so far from singular ones,
     and from those at which unknown loads have no power, that no pivot which is small beside theirs passes."""
     rows = stack_rows(layout, pose)
-    rcond = factor(layout, rows).rcond
+    rcond = _rcond(layout, rows)
     if known.link.size or not known.requested.all():
-        rcond = np.minimum(rcond, factor(layout, _unknowns(layout, known, pose, rows)).rcond)
+        rcond = np.minimum(rcond, _rcond(layout, _unknowns(layout, known, pose, rows)))
     return np.asarray(rcond > singular_below(layout) / np.sqrt(NEAR))
+
+
+def _rcond(layout: Layout, rows: ConstraintRows) -> Array:
+    """Reciprocal condition numbers (P,) of a square system with rows and columns of one size, whatever the unit of
+    length; of a large one, or of one that is not square, as it is scaled to be solved."""
+    if len(rows.i) != layout.unknowns or layout.unknowns > SPARSE:
+        return factor(layout, rows).rcond
+    matrix = np.nan_to_num(dense(layout, rows))
+    for axis in (2, 1, 2):
+        size = np.abs(matrix).max(axis=axis, keepdims=True, initial=0.0)
+        matrix = matrix / np.where(size > 0, size, 1.0)
+    scale = np.ones(layout.unknowns)
+    return inverse(matrix, scale, scale).rcond
 
 
 def _unknowns(layout: Layout, known: Known, pose: Pose, rows: ConstraintRows) -> ConstraintRows:

@@ -158,12 +158,11 @@ def in_mode(m: Mechanism, like: Compiled, place: Array, turn: Array) -> Mechanis
     """A design with the assembly mode of another, whose links have the places (L, 2) and angles (L,) at the first
     position of both.
 
-    As it is where it states another assembly, in space, and where phases follow from the first pose.
+    As it is where its file states an assembly, in space, and where phases or turns are counted from the first pose.
     """
-    stated = m.assembly != like.mechanism.assembly
-    if stated or not isinstance(like.guess, Guess) or not np.isfinite(place).all():
+    if m.assembly or not isinstance(like.guess, Guess) or not np.isfinite(place).all():
         return m
-    if phase_rows(like.layout.constraints).size:
+    if like.counts or phase_rows(like.layout.constraints).size:
         return m
     poses = ((*at, angle) for at, angle in zip(place.tolist(), turn.tolist(), strict=True))
     return m.model_copy(update={"assembly": dict(zip(like.links, poses, strict=True))})
