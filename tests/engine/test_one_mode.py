@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -54,10 +52,10 @@ def test_a_sweep_at_other_positions_or_from_other_places() -> None:
         assert rocker == pytest.approx(alone.angle("rocker"), abs=1e-12)
 
 
-def four_bar(**more: Any) -> da.Mechanism:
+def four_bar() -> da.Mechanism:
     tree = da.four_bar().to_tree()
     tree.pop("assembly")
-    return da.mechanism(tree | more)
+    return da.mechanism(tree)
 
 
 def test_what_the_file_states_stays_and_so_does_what_begins_elsewhere() -> None:

@@ -76,7 +76,7 @@ class Boards:
         self.acting = [self._acting(a) for a in actions]
 
     def at_pose(self, rows: NodeRows, actions: Sequence[Action]) -> Boards:
-        """The same contents, of the same result, at another pose in nodes, where nothing is known to be zero."""
+        """The same contents, of the same result, at another pose in nodes, with the same arrows."""
         other = copy(self)
         other.rows, other.actions = rows, actions
         other.items = replace(self.items, r=rows.r, rows=rows)
