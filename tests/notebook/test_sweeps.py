@@ -72,6 +72,38 @@ def test_compiled_and_one_by_one_agree(case: tuple[str, str], monkeypatch: pytes
         )
 
 
+@pytest.mark.parametrize("many", [2, 500])
+def test_at_rest_few_designs_and_many_have_no_motion(many: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    m = da.load(cases()["seed-001-ea-block-at-rest"])
+    (drive,) = m.drives
+    monkeypatch.setattr(design_sweep, "MANY", many)
+    s = da.sweep(m, "loads.N.value.1", [-90.0, -100.0], outputs=[f"drive.{drive}.speed"])
+    assert set(s.status.ravel()) == {"at_rest"}
+    assert np.isnan(s[f"drive.{drive}.speed"]).all()
+
+
+@pytest.mark.parametrize("end", ["low", "high"])
+def test_the_ends_of_what_friction_leaves_open_are_not_compiled(end: str) -> None:
+    m = da.load(cases()["seed-001-eb-block-sliding"])
+    (drive,) = m.drives
+    name = f"effort.{drive}.{end}"
+    with pytest.raises(da.ModelError, match=f"{name} is not compiled; use da.dynamics, da.sweep, da.study"):
+        da.compile(m, outputs=[name])
+    path = f"drives.{drive}.speed"
+    swept = da.sweep(m, path, [0.1, 0.2], outputs=[name])[name]
+    assert swept[1] == pytest.approx(da.solve(m.with_values({path: 0.2}))[name])
+
+
+def test_the_ends_of_what_friction_leaves_open_are_optimized_one_by_one() -> None:
+    m, path = da.load(cases()["seed-002-7a-engine-friction-circles"]), "joints.A.friction.radius"
+    best = da.optimize(m, {path: (0.03, 0.1)}, "least effort.O.low", positions=[0.7, 0.8], starts=2)
+    ends = [
+        da.dynamics(m.with_values({path: x}), positions=[0.7, 0.8])["effort.O.low"].min() for x in (0.03, 0.1)
+    ]
+    assert best.value == pytest.approx(min(ends), rel=1e-6)
+    assert min(ends) < max(ends) * 0.99
+
+
 def test_a_sweep_is_labelled_with_units() -> None:
     s = da.sweep(FOUR_BAR, COUPLER, [2 * LBF, 4 * LBF], positions=3, outputs=["effort.O2", "reaction.A"])
     si, of_file = s.to_xarray(), s.to_xarray("file")

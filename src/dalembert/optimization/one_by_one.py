@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.analysis.result.named_quantities import quantity
+from dalembert.analysis.result.named_quantities import BOUNDS, quantity
 from dalembert.analysis.result.quantity_catalogue import CATALOGUE
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
@@ -29,10 +29,12 @@ Function = Callable[[Result], Any]
 STEP = 1e-6
 """Difference of neighbouring designs, as a fraction of the bounds."""
 ANALYSED = re.compile(
-    rf"(?<![\w.])({'|'.join(word for word, row in CATALOGUE.items() if not row.compiled or word in READ)})"
+    rf"(?<![\w.])({'|'.join(word for word, row in CATALOGUE.items() if not row.compiled or word in READ)}"
+    rf"|\w+(?=\.[\w.-]*\.(?:{'|'.join(BOUNDS)})\b))"
     r"\.(\w[\w.-]*)"
 )
-"""Word and thing of quantities that are not compiled, or not of every machine."""
+"""Word and thing of quantities that are not compiled, or not of every machine: also the ends of what friction leaves
+open."""
 
 
 def analysed_names(text: str) -> list[tuple[str, str]]:

@@ -172,7 +172,7 @@ def read(r: Any, name: str) -> Quantity | None:
     parts = split_name(r, name)
     if parts is None:
         return None
-    if not (_leading(r) or CATALOGUE[parts.word].compiled):
+    if not _leading(r) and (parts.rate in BOUNDS or not CATALOGUE[parts.word].compiled):
         what = f"{name} is not compiled"
         raise ModelError(
             what, "use da.dynamics, da.sweep, da.study or da.optimize, which analyse designs one by one"
