@@ -3,8 +3,10 @@
 Method. Each number is a model: a file and up to four changes (`changed_models.py`), the same for the same number. What
 is refused must be refused by a sentence; what is answered must be finite where it has numbers and NaN elsewhere, and
 the same by every way: asked again (kept programs), by the careful path, by a kernel, by a kernel with other numbers,
-written and read again, in other units, with its positions backwards, alone. Everything that a person can read or draw
-of it is made. A model that takes too long is a finding too. Findings are printed, and kept in build/attack.
+written and read again, saved in each form, lifted into space, with its positions backwards, in a sweep. Everything that
+a person can read or draw of it is made, of a share of the models. What takes too long is a finding too. Findings are
+printed, and kept in build/attack. Not every one is a fault: where two joints do the work of one, or a law has its
+corner, two ways may differ.
 
     python benchmarks/attack.py [--seconds 600] [--processes 2] [--from 0]
     python benchmarks/attack.py --at 4711          # one model: its tree, and what is found
@@ -123,8 +125,8 @@ def written(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
     yield from alike(run(da.mechanism(m.to_tree())), r, "written and read")
 
 
-def units(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
-    """The file converted by `save` to JSON, TOML and YAML."""
+def saved(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
+    """Saved as JSON, TOML and YAML."""
     with tempfile.TemporaryDirectory() as folder:
         for form in ("json", "toml", "yaml"):
             path = Path(folder, f"m.{form}")
@@ -133,7 +135,7 @@ def units(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
 
 
 def backwards(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
-    """Positions that are statements, each alone or in the other order: forces of a position do not know the list."""
+    """Positions in the other order: forces of a position do not depend on the list."""
     if m.assembly or len(r.status) < 2 or r.mechanism.dimension == 3 or r.compiled.counts:
         return
     if not all(d.law is None for d in m.drives.values()) or len(m.drives) != 1:
@@ -396,7 +398,7 @@ CHECKS: dict[str, Callable[[da.Mechanism, da.Result, random.Random], Findings]] 
             asked_again,
             careful,
             written,
-            units,
+            saved,
             backwards,
             lifted,
             kernel,
