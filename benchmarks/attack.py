@@ -224,6 +224,8 @@ def sentence(error: DalembertError) -> Findings:
 
 def no_nan(text: str, what: str) -> Findings:
     """No "nan" or "inf" in words that a person reads."""
+    if "Check failed" in text:
+        yield f"{what}: {text[text.index('Check failed') :][:200]}"
     words = set(text.replace(",", " ").replace("(", " ").replace(")", " ").split())
     if words & {"inf", "-inf", "None", "np.float64"}:
         yield f"{what} has {sorted(words & {'inf', '-inf', 'None', 'np.float64'})}"
@@ -362,15 +364,33 @@ def quantities(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
 
 
 def motions(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
-    start = {}
+    """Motions under forces: the energy balance, the forces of the computed motion, and a compiled motion."""
+    yield from refusing("simulate", lambda: da.simulate(m, "0.05 s", count=11, steps=400))
+    start: dict[str, Any] = {}
     for name in r.drives[:1]:
         turns = m.drives[name].turns
         start[name] = {
             "position": float(r.drive_position(name)[0]),
             "speed": "2 rad/s" if turns else "0.1 m/s",
         }
-    yield from refusing("simulate", lambda: da.simulate(m, "0.05 s", start=start, count=11, steps=400))
-    yield from refusing("simulate as written", lambda: da.simulate(m, "0.05 s", count=11, steps=400))
+    s = da.simulate(m, "0.05 s", start=start, count=11, steps=2000)
+    yield from no_nan(s.text(), "simulate")
+    if s.doubt:
+        return
+    if not s.energy_residual < AGREES or not s.law_residual < AGREES:
+        yield f"simulate: energy {s.energy_residual:.1e}, law {s.law_residual:.1e} without a doubt"
+    many = da.compile_motion(m, "0.05 s", start=start, count=11)()
+    if many.ok[0] and s.status == "ended":
+        ends = np.array([s.position(name)[-1] for name in s.drives])
+        if np.abs(ends - many.position[0]).max(initial=0) > NEAR * max(1e-3, np.abs(ends).max(initial=0)):
+            yield f"compiled motion ends at {many.position[0]}, the simulation at {ends}"
+
+
+def balanced(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
+    """Counterweights leave what they are said to leave, in a description that has them."""
+    b = da.balance(r, [rng.choice(r.links)], least=rng.choice(("rms", "max")))
+    if not b.residual < AGREES:
+        yield f"balance: analysed again it differs by {b.residual:.1e}"
 
 
 def pages(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
@@ -407,7 +427,7 @@ CHECKS: dict[str, Callable[[da.Mechanism, da.Result, random.Random], Findings]] 
             drawings,
             machines,
         ),
-        *(quantities, motions, pages, exchanged),
+        *(quantities, motions, balanced, pages, exchanged),
     )
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -259,3 +260,21 @@ def test_the_gap_of_an_energy_balance_is_a_part_of_the_largest_energy(sign: floa
         _energies=(np.zeros(2), np.zeros(2)), works={"F": np.zeros(2)}, kinetic=np.zeros(2)
     )
     assert balance.func(still) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("off", "said"), [(2e-6, "Check failed"), (5e-7, "Check"), (math.nan, "Check failed")]
+)
+def test_counterweights_that_analysed_again_leave_something_else_are_in_doubt(off: float, said: str) -> None:
+    b = da.balance(da.four_bar(), ["crank"], positions=8)
+    lines = replace(b, residual=off).text().replace("\n", " ")
+    assert re.findall(r"Check\w*(?: failed)?", lines) == [said]
+    assert ("do not use these numbers" in lines) == (said == "Check failed")
+
+
+def test_counterweights_in_a_plane_that_turns_are_refused() -> None:
+    """They are pulled outward as well, and no column of the balance has that."""
+    tree = da.four_bar().to_tree()
+    assert da.balance(da.mechanism(tree), ["crank"], positions=4).residual < 1e-9
+    with pytest.raises(da.ModelError, match="in a plane that turns are pulled outward too"):
+        da.balance(da.mechanism(tree | {"turning": {"speed": "3 rad/s"}}), ["crank"], positions=4)

@@ -186,7 +186,8 @@ def balance(
     part of what it was before; rms values add up by their squares, greatest values as they are. Force and moment are
     those of inertia: weights and loads from outside do not count in them, as no counterweight balances a load, but in
     the torque. What was 0 before has no part and does not count.
-    Convex and exact for all harmonics; a weight not needed is 0. Raises ModelError for bounds that mean nothing.
+    Convex and exact for all harmonics; a weight not needed is 0. Raises ModelError for bounds that mean nothing, and in
+    a plane that turns.
     Berkof and Lowen, J. Eng. Ind. 91 (1969); Demeulenaere, Verschuure et al. (2004) for the convex form.
 
     >>> import dalembert as da
@@ -196,6 +197,9 @@ def balance(
     (True, True)
     """
     r = m if isinstance(m, Result) else _over_a_cycle(as_mechanism(m), positions)
+    if r.mechanism.turning is not None:
+        what = "counterweights in a plane that turns are pulled outward too, which is not balanced"
+        raise ModelError(what, "balance the mechanism without `turning`", ("turning",))
     least, of = _aim(least, of, r)
     wanted, allowed, before = _wanted(of, r), counterweights(r.mechanism, weights), shaking(r, about)
     base = {name: v.reshape(len(v), -1) for name, v in values_of(before).items()}

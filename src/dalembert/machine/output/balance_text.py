@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from dalembert.machine.balance.balancing import Balance
     from dalembert.machine.balance.comparison import Comparison
 
+AGREES = 1e-6
+"""Largest difference, over the values before, of a re-analysis that agrees."""
+
 
 def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
     """The counterweights, what is left of force, moment and torque, and the proof."""
@@ -82,6 +85,9 @@ def proof(b: Balance) -> str:
     else:
         text += "Full force balance is impossible: some link has no path to ground through turning joints. "
     rubs = "" if b.result.friction is None else "; the balance takes friction as it was without them"
+    if not rubs and not b.residual <= AGREES:
+        what = f"re-analysis with the counterweights differs by {remainder(b.residual)} of the values before"
+        return f"{text}Check failed: {what}; do not use these numbers."
     return f"{text}Check: re-analysis with the counterweights agrees to {remainder(b.residual)}{rubs}."
 
 
