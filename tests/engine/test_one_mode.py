@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -50,6 +52,36 @@ def test_a_sweep_at_other_positions_or_from_other_places() -> None:
     for x, rocker in zip((1.0, 2.0), found, strict=True):
         alone = da.solve(four_bar().with_values({"drives.O2.position": x}))
         assert rocker == pytest.approx(alone.angle("rocker"), abs=1e-12)
+
+
+def test_a_study_and_an_optimum_stand_as_the_file_does_compiled_or_one_by_one() -> None:
+    """Beside it the rule of the search would turn the bell over, by half a turn."""
+    spread, of = {UP: "± 1 mm"}, ["angle.bell"]
+    compiled = da.study(GOVERNOR, spread, of, designs=12).run()
+    alone = da.study(GOVERNOR, spread, [*of, "load.spring.low"], designs=12).run()
+    assert alone["angle.bell"] == pytest.approx(compiled["angle.bell"], abs=1e-12)
+    bell = da.solve(compiled.study.mechanism_of(3)).angle("bell")
+    assert np.abs(bell).max() == pytest.approx(compiled["angle.bell"][3], abs=1e-12)
+    spring: list[Any] = ["peak load.spring", lambda r: r.unknown_load("spring")]
+    for least in spring:
+        best = da.optimize(GOVERNOR, {UP: (-1e-3, 1e-3)}, least, starts=2)
+        assert np.abs(best.after.angle("bell")).max() < 0.3
+        assert da.solve(best.mechanism).angle("bell") == pytest.approx(best.after.angle("bell"), abs=1e-9)
+        assert abs(best.value) < abs(da.solve(GOVERNOR).unknown_load("spring")).max()
+
+
+@pytest.mark.parametrize(
+    "m", [GOVERNOR, da.slider_crank(crank=0.05, rod=0.2)], ids=["governor", "slider-crank"]
+)
+def test_the_mode_is_written_as_places_of_the_links(m: da.Mechanism) -> None:
+    """Of their origins in ground's axes, wherever the point is that the equations are written about."""
+    tree = m.to_tree()
+    tree.pop("assembly", None)
+    bare = da.mechanism(tree)
+    r = da.solve(bare)
+    kept = in_mode(bare, r.compiled, r.point_array[0], r.turn_array[0])
+    for link in r.links:
+        assert kept.assembly[link] == pytest.approx((*r.position(link)[0], r.angle(link)[0]), abs=1e-12)
 
 
 def four_bar() -> da.Mechanism:

@@ -187,9 +187,8 @@ class DesignProblem:
         box = self.low, self.high
         if self.motion is not None:
             return AlongMotions(self.mechanism, paths, *box, tuple(names), self.motion)
-        return OneByOne(
-            self.mechanism, paths, *box, tuple(names), self.functions, self.static, self.requested
-        )
+        asked = tuple(names), self.functions, self.static, self.requested
+        return OneByOne(self.mechanism, paths, *box, *asked, self.nominal_answer)
 
     @property
     def _plain(self) -> list[str]:

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.batch.tracing.course import in_mode_of
 from dalembert.analysis.result.named_quantities import BOUNDS, quantity
 from dalembert.analysis.result.quantity_catalogue import CATALOGUE
 from dalembert.analysis.result.result import Result
@@ -58,6 +59,7 @@ class OneByOne:
     functions: Mapping[str, Function]
     static: bool
     requested: AtPositions
+    nominal: Result
     known: dict[bytes, Array] = field(default_factory=dict, repr=False)
 
     def blocks(self, values: Array, **options: Any) -> Iterator[Any]:
@@ -98,11 +100,8 @@ class OneByOne:
     def _analysed(self, design: Array) -> Array:
         out = np.full((len(self.outputs), self._count), np.nan)
         try:
-            r = solve(
-                self.mechanism.with_values(dict(zip(self.vary, design.tolist(), strict=True))),
-                self.static,
-                self.requested,
-            )
+            one = self.mechanism.with_values(dict(zip(self.vary, design.tolist(), strict=True)))
+            r = solve(in_mode_of(one, self.nominal, self.requested), self.static, self.requested)
         except DalembertError:
             return out
         if len(r.status) == out.shape[1] and r.ok.all():

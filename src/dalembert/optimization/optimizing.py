@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.batch.tracing.course import in_mode_of
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, number_kinds, numbers
 from dalembert.arrays import Array, Flags
 from dalembert.bounds import require
@@ -295,6 +296,7 @@ def optimum_of(
 ) -> Optimum:
     m, values = p.mechanism, p.numbers(u)
     best = m.with_values({n.path: float(v) for n, v in zip(varied, values, strict=True)})
+    best = best if p.motion else in_mode_of(best, p.nominal_answer, p.requested)
     return Optimum(
         mechanism=best,
         numbers=tuple(n.path for n in varied),

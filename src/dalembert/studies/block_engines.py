@@ -15,6 +15,7 @@ from dalembert.analysis.batch.batch_result import CODES, NUMBERED, among, first_
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import REFINED, is_cycle, reduce_sides
+from dalembert.analysis.batch.tracing.course import in_mode_of
 from dalembert.analysis.result.named_quantities import cycle_functions, quantity
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
@@ -113,9 +114,14 @@ class AnalysisEngine:
     count: int | None
     why: str
 
+    @cached_property
+    def nominal(self) -> Result:
+        """The analysis of the file's numbers: designs have its assembly mode."""
+        return solve(self.mechanism, self.static, self.count)
+
     @property
     def positions(self) -> int:
-        return len(solve(self.mechanism, self.static, self.count).status)
+        return len(self.nominal.status)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -147,7 +153,7 @@ class AnalysisEngine:
 
     def one(self, m: Mechanism) -> tuple[Block, Array]:
         """Outputs and status codes of one design."""
-        result = solve(m, self.static, self.count)
+        result = solve(in_mode_of(m, self.nominal, self.count), self.static, self.count)
         codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
         statuses = np.array(codes, np.uint8)
         unique = among(statuses, [CODES.index("redundant")])

@@ -17,6 +17,7 @@ import numpy as np
 
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.batch_columns import output_kinds
+from dalembert.analysis.batch.tracing.course import in_mode_of
 from dalembert.analysis.batch.tracing.symbolic_model import number_kinds, of_motion
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
@@ -272,7 +273,13 @@ class Study:
 
     def mechanism_of(self, n: int) -> Mechanism:
         """The mechanism of a design, to be analysed, drawn and saved as any other."""
-        return self.mechanism.with_values(self.design(n))
+        one = self.mechanism.with_values(self.design(n))
+        return one if self.motion is not None else in_mode_of(one, self.nominal, self.positions)
+
+    @cached_property
+    def nominal(self) -> Result:
+        """The analysis of the file's numbers: designs have its assembly mode."""
+        return self.answer(self.mechanism)
 
     def extended(self, designs: int) -> Study:
         """The same study of more designs; those that there are stay as they are."""

@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
-from dalembert.analysis.batch.tracing.course import in_mode
+from dalembert.analysis.batch.tracing.course import in_mode_of
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, number_kinds
 from dalembert.analysis.result.named_quantities import Quantity, component, quantity, solved_names
 from dalembert.analysis.result.number_kinds import in_plane
@@ -175,9 +175,7 @@ def _analysis(
 ) -> Result:
     """One design, in the assembly mode of another that begins where it does."""
     one = m.with_values(changes)
-    if like is not None and np.array_equal(one.schedule(positions).position[0], like.schedule.position[0]):
-        one = in_mode(one, like.compiled, like.point_array[0], like.turn_array[0])
-    return solve(one, static, positions)
+    return solve(one if like is None else in_mode_of(one, like, positions), static, positions)
 
 
 class _Answers(NamedTuple):

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from dalembert.algebra import plane
 from dalembert.analysis.batch.over_positions import is_cycle
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import SPEED, TIME, counted_coordinates, parts
@@ -21,7 +22,7 @@ from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
 from dalembert.core.position.first_pose_plane import Guess, phase_rows
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism, Schedule
+from dalembert.model import AtPositions, Mechanism, Schedule
 
 
 @dataclass(frozen=True)
@@ -154,6 +155,13 @@ def _poses_with_ground(result: Result) -> Pose:
     return Pose(point, *result.compiled.layout.algebra.with_ground(result.turn_array, result.rotation_array))
 
 
+def in_mode_of(m: Mechanism, nominal: Result, positions: AtPositions = None) -> Mechanism:
+    """A design in the assembly mode of another one's analysis; as it is where it begins at other positions."""
+    if not np.array_equal(m.schedule(positions).position[:1], nominal.schedule.position[:1]):
+        return m
+    return in_mode(m, nominal.compiled, nominal.point_array[0], nominal.turn_array[0])
+
+
 def in_mode(m: Mechanism, like: Compiled, place: Array, turn: Array) -> Mechanism:
     """A design with the assembly mode of another, whose links have the places (L, 2) and angles (L,) at the first
     position of both.
@@ -164,5 +172,7 @@ def in_mode(m: Mechanism, like: Compiled, place: Array, turn: Array) -> Mechanis
         return m
     if like.counts or phase_rows(like.layout.constraints).size:
         return m
-    poses = ((*at, angle) for at, angle in zip(place.tolist(), turn.tolist(), strict=True))
+    reference = like.layout.reference
+    origins = place - plane.rotate(plane.rotation(turn), reference[:-1]) + reference[-1]
+    poses = ((*at, angle) for at, angle in zip(origins.tolist(), turn.tolist(), strict=True))
     return m.model_copy(update={"assembly": dict(zip(like.links, poses, strict=True))})
