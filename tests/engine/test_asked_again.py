@@ -71,6 +71,15 @@ def pushed(degrees: float) -> da.Mechanism:
     return da.mechanism(tree)
 
 
+def yoke(*degrees: float) -> da.Mechanism:
+    """A yoke that an unknown force along its guide moves: without power where the crank's pin is in line with it, where
+    no entry of the crank's equation of moments is more than rounding."""
+    tree = da.scotch_yoke().to_tree()
+    tree["drives"]["O2"] = {"position": [f"{x} deg" for x in degrees], "speed": "60 rad/s", "effort": -0.02}
+    tree["loads"]["put"] = {"type": "force", "on": "yoke", "at": "S", "value": "unknown", "direction": 0}
+    return da.mechanism(tree)
+
+
 PLATE = "dk-04-plate-on-two-links"
 MET: dict[str, tuple[Any, str]] = {
     "dead centre": (lambda: changed(PLATE, drives__E__position=np.pi / 2), "singular"),
@@ -85,6 +94,8 @@ MET: dict[str, tuple[Any, str]] = {
     "a mass balances": (lambda: no_masses(1), "ok"),
     "a load without power": (lambda: pushed(180), "no_balance"),
     "a load with little": (lambda: pushed(179), "ok"),
+    "a pin in line": (lambda: yoke(0), "no_balance"),
+    "a pin beside the line": (lambda: yoke(1), "ok"),
 }
 
 
@@ -104,6 +115,14 @@ def test_asked_again_it_answers_the_same(name: str) -> None:
             da.compile(m, lanes=1)
     elif name != "dead centre, twice":
         assert tuple(da.compile(m, lanes=1)().status[0]) == careful.status
+
+
+def test_over_a_turn_the_positions_without_power_have_no_force() -> None:
+    m = yoke(0, 90, 180, 270)
+    for _ in range(AGAIN):
+        r = da.dynamics(m)
+        assert r.status == ("no_balance", "ok", "no_balance", "ok")
+        assert np.isnan(r.load_array[::2]).all()
 
 
 @pytest.mark.parametrize(("first", "second"), [(0.0, -0.4), (-0.4, 0.0)])

@@ -221,10 +221,12 @@ def usual(layout: Layout, known: Known, pose: Pose) -> Flags:
 
 def _rcond(layout: Layout, rows: ConstraintRows) -> Array:
     """Reciprocal condition numbers (P,) of a square system with rows and columns of one size, whatever the unit of
-    length; of a large one, or of one that is not square, as it is scaled to be solved."""
+    length, an arm that is next to none being none; of a large system, or one that is not square, as it is scaled to
+    be solved."""
     if len(rows.i) != layout.unknowns or layout.unknowns > SPARSE:
         return factor(layout, rows).rcond
-    matrix = np.nan_to_num(dense(layout, rows))
+    matrix = np.nan_to_num(dense(layout, rows)) * layout.column_scale
+    matrix[np.abs(matrix) < singular_below(layout)] = 0.0
     for axis in (2, 1, 2):
         size = np.abs(matrix).max(axis=axis, keepdims=True, initial=0.0)
         matrix = matrix / np.where(size > 0, size, 1.0)
