@@ -278,3 +278,22 @@ def test_counterweights_in_a_plane_that_turns_are_refused() -> None:
     assert da.balance(da.mechanism(tree), ["crank"], positions=4).residual < 1e-9
     with pytest.raises(da.ModelError, match="in a plane that turns are pulled outward too"):
         da.balance(da.mechanism(tree | {"turning": {"speed": "3 rad/s"}}), ["crank"], positions=4)
+
+
+def test_an_effort_that_is_given_is_not_balanced_nor_are_counterweights_judged_by_it() -> None:
+    """A load is found from it: what counterweights need goes to the load."""
+    tree = da.four_bar().to_tree()
+    tree["drives"]["O2"]["effort"] = -3
+    tree["loads"]["torque"]["value"] = "unknown"
+    r = da.dynamics(da.mechanism(tree), positions=5)
+    b = da.balance(r, ["crank", "rocker"])
+    assert (b.complete, b.residual < 1e-9, list(b.sizes())) == (True, True, ["force", "moment"])
+    assert "rms torque" not in b.text()
+    assert b.draw().items
+    for refused in (
+        lambda: da.balance(r, ["crank"], of="torque"),
+        lambda: b.trade_off("torque"),
+        lambda: da.balance(r, ["crank"], least="rms effort.O2"),
+    ):
+        with pytest.raises(da.ModelError, match=r"no drive has a torque|'effort.O2' cannot be balanced"):
+            refused()

@@ -20,7 +20,7 @@ from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.balance.balance_problem import BalanceProblem, Solved
-from dalembert.machine.balance.comparison import Comparison, values_of
+from dalembert.machine.balance.comparison import Comparison, balanced_drive, values_of
 from dalembert.machine.balance.counterweights import (
     Counterweight,
     Wanted,
@@ -102,8 +102,7 @@ class Balance(Comparison):
         From the least of ``of`` to the least of the other, by weights cos and sin of even angles.
         """
         require("count", count)
-        if other not in QUANTITIES:
-            raise ModelError(f"{other!r} is not an objective", f"choose among {', '.join(QUANTITIES)}")
+        _wanted({other: 1.0}, self.result)
         out = []
         for angle in np.linspace(0.02, math.pi / 2 - 0.02, count):
             weights = {n: w * math.cos(angle) for n, w in self.of.items()}
@@ -206,7 +205,7 @@ def balance(
     refuse_unknown(r, "balancing needs every position", *base.values())
     floors = {n: before.floor("force" if n == "force" else "moment") for n in base}
     base = {n: v if np.abs(v).max() > floors[n] else 0 * v for n, v in base.items()}
-    columns = mass_columns(r, allowed, before.point, r.drives[0] if r.drives else None)
+    columns = mass_columns(r, allowed, before.point, balanced_drive(r))
     problem = BalanceProblem(base, columns.of, tuple(allowed.items()), columns.axes)
     solved = problem.solve(least, wanted)
     numbers = solved.numbers.reshape(len(allowed), -1)
@@ -225,9 +224,9 @@ def _aim(least: str, of: Of, r: Result) -> tuple[Least, Of]:
         raise ModelError(
             f"least is {quote_value(least)}", "write rms or peak and a quantity: rms shaking_force"
         )
-    short = {"shaking_force": "force", "shaking_moment": "moment"} | {
-        f"effort.{d}": "torque" for d in r.drives[:1]
-    }
+    drive = balanced_drive(r)
+    short = {"shaking_force": "force", "shaking_moment": "moment"}
+    short |= {} if drive is None else {f"effort.{drive}": "torque"}
     if quantity and quantity not in short:
         raise ModelError(f"{quantity!r} cannot be balanced", f"choose among {', '.join(short)}")
     reduction: Least = "rms" if word == "rms" else "max"
@@ -244,7 +243,7 @@ def _wanted(of: Of, r: Result) -> dict[str, float]:
         if name not in QUANTITIES:
             raise ModelError(f"{name!r} is not an objective", f"choose among {', '.join(QUANTITIES)}")
         require("weight", weight, f"the weight of {name}")
-        if name == "torque" and not r.drives:
+        if name == "torque" and balanced_drive(r) is None:
             raise ModelError("no drive has a torque that could be balanced", "balance force or moment")
     if not any(wanted.values()):
         raise ModelError("no objective to minimise is given", 'write of="force"')

@@ -13,6 +13,7 @@ from dalembert.machine.output.sizes_over_cycle import greatest, rms
 from dalembert.machine.shaking import Shaking
 
 if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
     from dalembert.model import Mechanism
 
 
@@ -61,10 +62,17 @@ class Comparison(MachineAnswer, Remade):
                 )
 
 
+def balanced_drive(r: Result) -> str | None:
+    """The first drive, whose effort moves added masses too; none where an effort is given and a load moves them."""
+    found = not r.unknown_loads and r.compiled.known.requested.all()
+    return r.drives[0] if r.drives and found else None
+
+
 def values_of(s: Shaking) -> dict[str, Array]:
     """Force and moment of inertia, which added masses are to make small, and the effort of the first drive if any.
 
     No added mass changes a load from outside, so neither that nor the weights are part of what is to be least.
     """
-    torque = {"torque": s.result.effort(s.result.drives[0])} if s.result.drives else {}
+    drive = balanced_drive(s.result)
+    torque = {} if drive is None else {"torque": s.result.effort(drive)}
     return dict(zip(("force", "moment"), s.parts["inertia"], strict=True)) | torque
