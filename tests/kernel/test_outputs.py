@@ -111,6 +111,11 @@ def test_asked_loads_shake() -> None:
     agree(da.loads(text), ["shaking_force", "shaking_moment"])
 
 
+def test_a_plane_that_turns_shakes_by_what_pulls_outward_too() -> None:
+    tree = da.four_bar().to_tree() | {"turning": {"speed": "30 rad/s"}}
+    agree(da.mechanism(tree), ["shaking_force", "shaking_moment"])
+
+
 def test_transmission_angle_by_hand() -> None:
     r = da.kinematics(da.four_bar())
     a, b, o4 = r.point("coupler", "A"), r.point("coupler", "B"), r.point("rocker", "O4")

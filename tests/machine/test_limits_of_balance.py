@@ -297,3 +297,23 @@ def test_an_effort_that_is_given_is_not_balanced_nor_are_counterweights_judged_b
     ):
         with pytest.raises(da.ModelError, match=r"no drive has a torque|'effort.O2' cannot be balanced"):
             refused()
+
+
+@pytest.mark.parametrize("made", [da.bevel_differential, da.scotch_yoke])
+def test_a_machine_that_has_no_forces_is_not_balanced(made: Any) -> None:
+    """The unknown force has no power: no position has accelerations or forces."""
+    tree = made().to_tree()
+    link = next(name for name in made().links if name != "ground")
+    drive = tree["drives"][list(tree["drives"])[-1]]
+    drive["effort"] = 0
+    along = [0, 0, 1] if made().dimension == 3 else 90
+    tree["loads"] = {
+        "put": {"type": "force", "on": link, "at": "center", "value": "unknown", "direction": along}
+    }
+    tree["loads"]["put"]["on"] = "yoke" if "yoke" in tree["links"] else link
+    r = da.dynamics(da.mechanism(tree))
+    assert set(r.status) == {"no_balance"}
+    with pytest.raises(
+        da.AnalysisError, match=r"balancing needs every position; position 1: The unknown put"
+    ):
+        da.balance(r, [link])

@@ -5,7 +5,7 @@ It gives no derivatives: those are one step of the compiled equations from its s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -21,7 +21,7 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.named_quantities import quantity as read_quantity
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
-from dalembert.errors import DalembertError
+from dalembert.errors import FORCED, DalembertError
 from dalembert.model import Mechanism, Schedule
 
 if TYPE_CHECKING:
@@ -155,3 +155,12 @@ def quantity(result: Result, output: str) -> Array:
     """One output of a result (position, component)."""
     values = read_quantity(result, output).values
     return values.reshape(len(values), -1)
+
+
+def solved_quantities(side: Result, names: Iterable[str]) -> list[Array]:
+    """Its quantities, as of a kernel NaN where it has no forces."""
+    lost = ~np.isin(side.codes, FORCED)
+    values = [np.array(side[name], float) for name in names]
+    for of in values:
+        of[lost] = np.nan
+    return values

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby, product
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from dalembert.analysis.batch.batch_result import CODES
+from dalembert.analysis.batch.careful_path import solved_quantities
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
 from dalembert.analysis.batch.tracing.course import in_mode_of
@@ -23,7 +24,7 @@ from dalembert.answer.answer import Drawn, Labelled
 from dalembert.answer.column import Axes, Column, Scale, UnitChoice
 from dalembert.answer.named_answer import NamedAnswer, counted
 from dalembert.arrays import Array, Tree
-from dalembert.errors import FORCED, SOLVED, STATUSES, ModelError
+from dalembert.errors import SOLVED, STATUSES, ModelError
 from dalembert.model import AtPositions, Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.paths import value_at
 from dalembert.model.quantities.parameters import Parameter
@@ -204,22 +205,13 @@ def _collected(results: Iterator[Result], like: Mapping[str, Quantity], count: i
         if parts and len(r.status) != len(parts[0][0]):
             what = f"designs have {len(parts[0][0])} and {len(r.status)} positions"
             raise ModelError(what, "give the drives as many in each")
-        values = [_solved(side, like) for side in (r.sides[0], r.sides[-1])]
+        values = [solved_quantities(side, like) for side in (r.sides[0], r.sides[-1])]
         parts.append((r.status, r.reasons, r.schedule.position, *values, r.after is not None))
         tell(k + 1, count)
     status, reasons, drives, first, last, two = zip(*parts, strict=True)
     arrays = [dict(zip(like, map(np.stack, zip(*of, strict=True)), strict=True)) for of in (first, last)]
     statuses, why = (np.array(of, object) for of in (status, reasons))
     return _Answers(statuses, why, np.stack(drives), arrays[0], arrays[1] if any(two) else {})
-
-
-def _solved(side: Result, names: Iterable[str]) -> list[Array]:
-    """Its quantities, as of a kernel NaN where it has no forces."""
-    lost = ~np.isin(side.codes, FORCED)
-    values = [np.array(side[name], float) for name in names]
-    for of in values:
-        of[lost] = np.nan
-    return values
 
 
 def _compiled(

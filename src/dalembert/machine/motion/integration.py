@@ -142,7 +142,8 @@ class Integration(StepState):
                 self._give_up(before, from_)
                 return before, from_
             if steps > MANY_STEPS and before - t < steps * NEVER * (self.end - t) < np.inf:
-                raise StoppedError("the integration steps become too small, as where friction nearly jams")
+                what = "the integration steps become too small, as where friction nearly jams"
+                raise StoppedError(f"{what}, or something has next to no inertia")
             if solver.step():
                 self.longest = longest
                 return self._go_on_with_care(before, from_)

@@ -178,7 +178,9 @@ def _shaking(c: Catalogue, about: str) -> Array:
     }
     total, origin = trace_array(c.graph, np.zeros(g.n)), np.asarray(c.compiled.layout.reference, object)[-1]
     inner["asked"] = [getattr(m.loads[n], "by", None) == GROUND for n in c.unknown_loads]
-    kinds = [kind for kind in ("weight", "inertia", "force", "couple", "asked") if kind in t.sources]
+    kinds = [
+        kind for kind in ("weight", "inertia", "turning", "force", "couple", "asked") if kind in t.sources
+    ]
     parts = [(t.sources[kind], inner.get(kind)) for kind in kinds]
     for source, left_out in parts:
         for k, link in enumerate(source.link):
