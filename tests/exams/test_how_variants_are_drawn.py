@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.exams import exam_folder
+from dalembert.exams import candidates, exam_folder
 from dalembert.exams import variants as drawing
+from dalembert.exams.asked import ExpectedValue
 from dalembert.exams.candidates import Candidate, Unfit
 from dalembert.exams.question_sheet import ExamText
 from dalembert.reports.sheet import ReportSheet
@@ -208,3 +211,24 @@ def test_marks_of_a_question_are_those_of_its_name_before_those_of_its_quantity(
 )
 def test_the_line_under_the_title_names_course_and_variant(course: str, name: str, line: str) -> None:
     assert ExamText(course).subtitle(name) == line
+
+
+@pytest.mark.parametrize(
+    ("values", "off"), [([12.0, 9.5], 0.05), ([9.5, 12.0], 0.05), ([], math.inf), ([12.0], 0.2)]
+)
+def test_of_two_values_of_a_wrong_problem_the_nearer_one_hides_the_mistake(
+    values: list[float], off: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(candidates, "values_of", lambda *_: (tuple(map(np.array, values)), False))
+    right = ExpectedValue("force", np.array(10.0))
+    problem: Any = None
+    assert candidates._change(problem, REACTION, right, 0) == pytest.approx(off)
+
+
+def test_a_wrong_problem_without_a_figure_is_as_far_off_as_can_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    def none(*_: Any) -> Any:
+        raise IndexError
+
+    monkeypatch.setattr(candidates, "values_of", none)
+    problem: Any = None
+    assert candidates._change(problem, REACTION, ExpectedValue("force", np.array(10.0)), 0) == math.inf
