@@ -91,3 +91,15 @@ def test_only_the_inertia_of_one_link_is_counted_where_there_are_three(
 )
 def test_what_runs_through_the_problem_is_a_concept_and_one_datum_is_none(sentence: str, weight: str) -> None:
     assert WrongProblem(2, sentence, lambda: None).weight == weight
+
+
+def test_of_a_fixed_pivot_rounding_is_no_acceleration() -> None:
+    """Away from the origin, where the acceleration of the mass centre has no component across the crank."""
+    m = slider_crank(0.0, 0.0).with_values(
+        {"links.crank.mass": 1.0, "links.crank.center": [0.0537, 0.0], "drives.O.position": [0.0, 0.7, 1.9]}
+    )
+    r = da.dynamics(m)
+    assert float(np.abs(r["point.crank.center.acceleration"]).min()) < 1e-12
+    words = "the acceleration of the mass centre of crank is taken without that of "
+    found = [c.sentence for c in wrench_changes(r) if c.sentence.startswith(words)]
+    assert found == [f"{words}A"]
