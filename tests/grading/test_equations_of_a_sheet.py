@@ -29,6 +29,11 @@ def equations(solved: da.Result) -> SheetEquations:
     return SheetEquations(solved)
 
 
+@pytest.fixture(scope="module")
+def space() -> da.Result:
+    return da.dynamics(da.rssr().with_values({"drives.O.position": "1 rad"}))
+
+
 def given(r: da.Result, value: Any, **answer: Any) -> StudentValue:
     return figure(r, da.Answer(**answer, value=value))
 
@@ -183,18 +188,16 @@ def test_the_acceleration_of_a_sheet_changes_what_acts_on_its_link(
     assert equations.accelerations(some, [0, 2]).keys() == {2}
 
 
-def test_without_inertia_and_in_space_accelerations_change_nothing() -> None:
+def test_without_inertia_and_in_space_accelerations_change_nothing(space: da.Result) -> None:
     still = da.statics(four_bar())
     some = [given(still, "5 rad/s^2", quantity="acceleration", of="rocker")]
     assert SheetEquations(still).accelerations(some, [0]) == {}
-    space = da.dynamics(da.rssr().with_values({"drives.O.position": "1 rad"}))
     part = ["1 m/s^2", "2 m/s^2", "3 m/s^2"]
     moving = [given(space, part, quantity="center_acceleration", of="rocker")]
     assert SheetEquations(space).accelerations(moving, [0]) == {}
 
 
-def test_in_space_moments_are_about_axes_through_joints() -> None:
-    space = da.dynamics(da.rssr().with_values({"drives.O.position": "1 rad"}))
+def test_in_space_moments_are_about_axes_through_joints(space: da.Result) -> None:
     q = SheetEquations(space)
     words = [row.words for row in q.rows]
     assert {f"sum of forces along {axis} on rod" for axis in "xyz"} <= set(words)
