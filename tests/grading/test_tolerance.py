@@ -110,6 +110,9 @@ def test_how_far_a_vector_is_off() -> None:
     assert figure.off(np.array([3.03, 4.04])) == pytest.approx(0.01)
     assert figure.off(np.array([4, -3])) == pytest.approx(math.sqrt(2))
     assert close([0, 0], 0.005).off(np.array([3, 4])) == 1.0
+    angles = close([1, -2], 0.005, kind="angle")
+    assert angles.off(np.array([1.1, -2.5])) == pytest.approx(0.5)
+    assert angles.off(np.array([1.7, -2.5])) == pytest.approx(0.7)
 
 
 def test_what_is_nothing_beside_the_machine() -> None:
