@@ -188,7 +188,8 @@ def test_areas_forces_and_lengths_of_a_cylinder() -> None:
         ),
         (
             {"barrel": 0.1},
-            "the length of its barrel is not known, and is needed for its column; give closed and stroke, or barrel_length",
+            "the length of its barrel is not known, and is needed for its column; give closed and stroke, or "
+            "barrel_length",
             (),
         ),
         (
@@ -259,12 +260,8 @@ def test_a_cylinder_is_two_links_and_three_joints() -> None:
         assert made.inertia("C_barrel") == pytest.approx(18 * barrel**2 / 12)
         assert made.inertia("C_rod") == pytest.approx(9 * rod**2 / 12)
     assert mechanism(m.to_tree()) == m
-    assert (
-        refused(m.with_values, {"links.C_rod.mass": 3.0})[0].startswith(
-            "links.C_rod: the mass of a cylinder's link follows from the cylinder"
-        )
-        or "follows from the cylinder" in refused(m.with_values, {"links.C_rod.mass": 3.0})[0]
-    )
+    says, _ = refused(m.with_values, {"links.C_rod.mass": 3.0})
+    assert "the mass of a cylinder's link follows from the cylinder; change the mass of the cylinder" in says
 
 
 @pytest.mark.parametrize(
