@@ -174,7 +174,7 @@ def test_a_toml_file_that_is_too_deep() -> None:
 def test_the_line_of_a_copied_part_is_that_of_its_copy() -> None:
     lines = {("links",): 2, ("links", "a"): 3, ("copies", 0): 9, ("links", "a", "mass"): 4}
     copied = {("links", "a_2"): ("copies", 0), ("joints", "J_2"): ("copies", 0)}
-    source = FileSource("m.yaml", lambda: lines, copied=copied)  # type: ignore[arg-type,return-value]
+    source = FileSource("m.yaml", lambda: lines, copied=copied)  # type: ignore[arg-type]
     paths: list[tuple[tuple[str | int, ...], int]] = [
         (("links", "a", "mass"), 4),
         (("links", "a", "center", 1), 3),
