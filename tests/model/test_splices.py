@@ -18,6 +18,9 @@ from dalembert.model.files.yaml_text import DEEPEST
 FLOW = '{"a": 1, "b": {"c": 2, "d": 3}, "e": [1, 2, 3], "f": {}}'
 BLOCK = "a: 1\nb:\n  c: 2  # two\n  d: 'old'\ne: [1, 2]\nf: &x {p: 1}\ng: *x\n"
 TABLES = "a = 1\n[b]\nc = 'old'\n[b.g.k]\ne = 3\n"
+LISTED = (
+    'a.b.c = 1\na.b.d = [1, {e = 2}]\n[[answers]]\nof = "x"\n[[answers]]\nof = "y"\n[[answers]]\nof = "w"\n'
+)
 INLINE = 'q = {r = [1, "x"], "\u00e4" = true}\n'
 SPLICED: list[tuple[str, str, dict[tuple[str | int, ...], Any], str]] = [
     ("json", FLOW, {("b", "c"): 5.5}, FLOW.replace("2, ", "5.5, ", 1)),
@@ -69,6 +72,13 @@ SPLICED: list[tuple[str, str, dict[tuple[str | int, ...], Any], str]] = [
         {("b", "q"): {"r": [1, "x"], "\u00e4": True}},
         TABLES.replace("'old'\n", "'old'\n" + INLINE),
     ),
+    ("toml", LISTED, {("a", "b", "c"): 5}, LISTED.replace("c = 1", "c = 5")),
+    ("toml", LISTED, {("a", "b", "d", 0): 5}, LISTED.replace("[1,", "[5,")),
+    ("toml", LISTED, {("a", "b", "d", 1, "e"): 7}, LISTED.replace("e = 2", "e = 7")),
+    ("toml", LISTED, {("answers", 0, "of"): "z"}, LISTED.replace('"x"', '"z"')),
+    ("toml", LISTED, {("answers", 1, "of"): "z"}, LISTED.replace('"y"', '"z"')),
+    ("toml", LISTED, {("answers", 2, "of"): "z"}, LISTED.replace('"w"', '"z"')),
+    ("toml", LISTED, {("answers", 1, "of"): REMOVED}, LISTED.replace('of = "y"\n', "")),
     ("toml", TABLES, {("a",): REMOVED}, TABLES.replace("a = 1\n", "")),
 ]
 
