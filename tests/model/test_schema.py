@@ -13,6 +13,7 @@ import pytest
 from dalembert.bundled import cases, examples
 from dalembert.model import json_schema, read_file
 from dalembert.model.part import Part
+from tests.model.schema_lines import WRITTEN, lines
 
 SCHEMA = json_schema()
 
@@ -48,6 +49,11 @@ def test_it_is_json_and_closed() -> None:
     assert json.loads(json.dumps(SCHEMA)) == SCHEMA
     assert SCHEMA["additionalProperties"] is False
     assert all(part["additionalProperties"] is False for part in SCHEMA["$defs"].values())
+
+
+def test_what_may_be_written_is_as_it_was_read() -> None:
+    """Types, words, counts and defaults of every key, exactly."""
+    assert list(lines()) == WRITTEN.read_text(encoding="utf-8").splitlines()
 
 
 def test_the_keys_are_those_of_the_file() -> None:
