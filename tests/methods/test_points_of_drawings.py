@@ -312,7 +312,7 @@ def test_a_mass_centre_at_rest_has_no_force_of_inertia() -> None:
     assert ways[1] == pytest.approx(-ways[0])
     off = (np.subtract(force.tail, acceleration.tail)) * scene.scales["length"]
     arm = abs(off[0] * ways[1][1] - off[1] * ways[1][0])
-    alpha = float(moving.angular_acceleration("coupler")[0])
+    alpha = float(moving["angle.coupler.acceleration"][0])
     inertia = float(m.inertia("coupler"))  # type: ignore[arg-type]
     assert arm == pytest.approx(abs(inertia * alpha) / force.value, rel=1e-9)
     assert (off[0] * ways[1][1] - off[1] * ways[1][0]) * -alpha > 0
