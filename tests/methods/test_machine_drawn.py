@@ -57,7 +57,7 @@ def test_harmonics_are_bars_of_their_orders_without_the_mean(many: int) -> None:
     legend = {t.text: t.at for t in scene.texts() if t.at[0] == 95.5}
     assert legend == ({"x": (95.5, 38.0), "y": (95.5, pytest.approx(33.4))} if many == 2 else {})
     assert scene.numbers["order"] == [1, 3]
-    np.testing.assert_allclose(scene.numbers["amplitude"], 2 * amplitude[1:])
+    np.testing.assert_allclose(np.array(scene.numbers["amplitude"]), 2 * amplitude[1:])
 
 
 def test_harmonics_that_are_nothing_have_an_axis_to_one() -> None:

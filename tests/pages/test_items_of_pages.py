@@ -65,8 +65,8 @@ def test_a_page_tells_velocities_and_accelerations_of_joints_and_mass_centres() 
     assert [rate["of"] for rate in rates] == [[kind, name] for kind, name, _ in links]
     for rate, (kind, name, link) in zip(rates, links, strict=True):
         u = m.point(link, "P") if kind == "joint" else m.center(link)
-        places = (r.point(link, "P") if kind == "joint" else r.center(name), r._velocity(link, np.array(u)))
-        places = (*places, r._acceleration(link, np.array(u)))
+        place = r.point(link, "P") if kind == "joint" else r.center(name)
+        places = (place, r._velocity(link, np.array(u)), r._acceleration(link, np.array(u)))
         for key, values in zip("pva", places, strict=True):
             np.testing.assert_allclose(out[rate[key]].T, values, atol=1e-9)
     assert page_data(m, static=True)["views"]["rates"] == []

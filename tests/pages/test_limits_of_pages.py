@@ -240,7 +240,7 @@ def test_changes_of_a_page_are_numbers_and_the_places_of_links() -> None:
     changed = with_changed_numbers(
         m, {"assembly.rocker": 1.8, "links.crank.points.A.0": 0.11, "assembly.coupler": -0.2}
     )
-    assert changed.links["crank"].points["A"][0] == 0.11
+    assert changed.point("crank", "A")[0] == 0.11
     assert changed.assembly == {"rocker": 1.8, "coupler": -0.2}
     assert with_changed_numbers(m, {"links.crank.points.A.0": 0.11}).assembly == m.assembly
     space = da.rssr()

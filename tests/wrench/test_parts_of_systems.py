@@ -53,7 +53,8 @@ def test_a_moved_force_and_its_couple_keep_name_and_kind() -> None:
     assert (Couple(-2.5).dimension, Couple([-2.5]).moment, Couple(-2.5).size) == (2, -2.5, 2.5)
     assert Couple("[1 N*m, 2 kN*m, 3 N*mm]").vector == pytest.approx([1, 2000, 0.003])
     assert Couple([2], units={"force": "kN", "length": "mm"}).moment == pytest.approx(2.0)
-    assert (f.moment(), f.moment([1, 1]), f.arm([0, 0])) == (-26, -19, pytest.approx(5.2))
+    assert (f.moment(), f.moment([1, 1])) == (-26, -19)
+    assert f.arm([0, 0]) == pytest.approx(5.2)
     assert f.projection("90 deg") == pytest.approx(-4)
     assert f.angle == pytest.approx(math.atan2(-4, 3))
     assert f.line.foot([5, 2]) == pytest.approx([5, 2])
@@ -97,11 +98,8 @@ def test_the_middle_and_the_length_are_of_the_points_of_application() -> None:
     assert s.middle == pytest.approx([3, -2])
     assert s.length == pytest.approx(10)
     alone = System(Couple([1, 2, 3]))
-    assert (alone.middle.tolist(), alone.length, alone.scales()) == (
-        [0, 0, 0],
-        0.0,
-        (0.0, pytest.approx(14**0.5)),
-    )
+    assert (alone.middle.tolist(), alone.length) == ([0, 0, 0], 0.0)
+    assert alone.scales() == pytest.approx((0.0, 14**0.5))
     assert alone.kind() == "couple"
     assert alone.moment([7, 8, 9]).tolist() == [1, 2, 3]
 
@@ -263,11 +261,12 @@ def test_a_free_body_has_its_joints_as_points_and_a_worked_solution() -> None:
     assert s.title == "coupler, position 3"
     assert list(s.points) == ["A", "B"]
     assert s.point("B") == pytest.approx(r.point("coupler", "B")[2])
-    assert s["F_B"].at == pytest.approx(r.point("coupler", "B")[2])
+    assert s.forces[1].name == "F_B"
+    assert s.forces[1].at == pytest.approx(r.point("coupler", "B")[2])
     text = str(da.report(s))
     assert s.sheet() is not None
     assert "coupler, position 3" in text
-    record = s.record(lambda kind, value: value)["system"]  # type: ignore[arg-type, return-value]
+    record = s.record(lambda kind, value: value)["system"]  # type: ignore[arg-type]
     assert record["kind"] == s.kind() == "zero"
     assert record["equilibrium"]["holds"]
     assert "central_axis" not in record
@@ -275,7 +274,7 @@ def test_a_free_body_has_its_joints_as_points_and_a_worked_solution() -> None:
 
 def test_a_record_has_the_axis_of_a_force_or_a_wrench() -> None:
     s = System(Force([0, 0, 5], at=[1, 2, 0]), Couple([0, 0, 15]))
-    record = s.record(lambda kind, value: value)["system"]  # type: ignore[arg-type, return-value]
+    record = s.record(lambda kind, value: value)["system"]  # type: ignore[arg-type]
     assert record["kind"] == "wrench"
     assert record["resultant"].tolist() == [0, 0, 5]
     assert record["moment_at_origin"].tolist() == [10, -5, 15]
@@ -283,5 +282,5 @@ def test_a_record_has_the_axis_of_a_force_or_a_wrench() -> None:
     assert (axis["moment"], axis["pitch"]) == (pytest.approx(15), pytest.approx(3))
     assert axis["point"] == pytest.approx([1, 2, 0])
     assert axis["direction"].tolist() == [0, 0, 1]
-    couple = System(Couple(3.0)).record(lambda kind, value: value)["system"]  # type: ignore[arg-type, return-value]
+    couple = System(Couple(3.0)).record(lambda kind, value: value)["system"]  # type: ignore[arg-type]
     assert (couple["kind"], "central_axis" in couple) == ("couple", False)
