@@ -218,3 +218,27 @@ def test_an_unknown_source_of_a_polygon_is_refused() -> None:
     r = da.statics(da.load(examples()["four_bar"]))
     with pytest.raises(da.ModelError, match="unknown source 'F_Q'; choose one of: F_P, T_4"):
         da.draw.force_polygon(r, "rocker", case="F_Q")
+
+
+def test_the_ball_of_a_symbol_is_where_its_axes_begin() -> None:
+    for camera in ("isometric", "front"):
+        scene = da.draw.joint("spherical", camera)
+        balls = [i for i in scene.items if isinstance(i, Circle) and i.role in ("inner", "outer")]
+        assert balls
+        assert all(ball.center == pytest.approx((0, 0), abs=1e-9) for ball in balls)
+
+
+def test_names_of_joints_in_the_table_of_a_free_body_are_bold() -> None:
+    r = da.dynamics(da.load(examples()["rssr"]))
+    scene = da.draw.free_body(r, "rod", at=1)
+    bold = [t.text for t in scene.texts() if t.role == "title" and t.size == 2.6]
+    assert bold == ["A", "B"]
+
+
+def test_pins_lie_on_wheels_whatever_their_order_in_the_file() -> None:
+    tree = da.load(examples()["gear_train"]).to_tree()
+    for order in (1, -1):
+        tree["joints"] = dict([*tree["joints"].items()][::order])
+        r = da.dynamics(da.mechanism(tree))
+        roles = [getattr(i, "role", "") for i in da.draw.mechanism(r).items]
+        assert max(k for k, role in enumerate(roles) if role == "pitch") < roles.index("pin")

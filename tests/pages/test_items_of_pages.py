@@ -106,10 +106,18 @@ def test_the_free_body_of_a_lever_has_no_drum(template: str) -> None:
             assert drawn == []
 
 
+QUICK_FALL = [
+    {"to": "8 mm", "in": "110 deg", "by": "cycloidal"},
+    {"to": 0, "in": "80 deg", "by": "cycloidal"},
+    {"dwell": "rest"},
+]
+
+
 @pytest.mark.parametrize("follower", ["knife", "flat", {"roller": "9 mm"}])
-def test_a_follower_that_only_slides_is_the_same_at_rest(follower: Any) -> None:
+@pytest.mark.parametrize("segments", [None, QUICK_FALL])
+def test_a_follower_that_only_slides_is_the_same_at_rest(follower: Any, segments: Any) -> None:
     """Its face is as long as the contact wanders to either side."""
-    r = da.dynamics(da.mechanism(machine(follower)))
+    r = da.dynamics(da.mechanism(machine(follower, segments)))
     frame = PaperFrame(0.0004, (0.013, -0.021))
     at, turn = np.array(frame(r.point("stem", "F")[0])), float(r.angle("stem")[0])
     turned = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])

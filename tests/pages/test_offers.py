@@ -68,7 +68,7 @@ def places(**moved: tuple[float, float]) -> Any:
     m = da.loads(CHAIN)
     pairs = [(link, point) for link, part in m.links.items() for point in part.points]
     out = {pair: np.array([10.0 * k, 3.0 * k]) for k, pair in enumerate(pairs)}
-    return out | {tuple(name.split("_")): np.array(at) for name, at in moved.items()}  # type: ignore[misc]
+    return out | {tuple(name.split("_")): np.array(at) for name, at in moved.items()}
 
 
 @pytest.mark.parametrize(("off", "near"), [(0.9 * TOGETHER, True), (1.1 * TOGETHER, False)])
