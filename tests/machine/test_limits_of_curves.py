@@ -313,8 +313,7 @@ def test_a_foot_is_the_nearest_place_of_a_member() -> None:
 
 def test_members_beyond_others_are_those_behind_their_second_end() -> None:
     a, b, c, d = (
-        straight(ends, START, START + [0, 1.0, 0])
-        for ends in (("A", "B"), ("C", "B"), ("C", "D"), ("E", "A"))
+        straight(ends, START, START + ALONG) for ends in (("A", "B"), ("C", "B"), ("C", "D"), ("E", "A"))
     )
     assert beyond([a, b, c, d]).astype(int).tolist() == [
         [0, 1, 1, 0],
