@@ -301,3 +301,51 @@ def test_why_a_motion_stops_names_the_contacts_that_are_lost() -> None:
     assert s.why_stopped("no reason").startswith("without contact at A and C the gaps do not determine")
     slides: Any = Touching(GapContact("S", "slide", 1.0, 0.0, 0.0, drive=0))
     assert slides.why_stopped("no reason") == "no reason"
+
+
+@pytest.mark.parametrize(
+    ("speed", "near", "closed", "touching"),
+    [
+        (5e-9, True, False, True),  # a billionth of the greatest speed so far
+        (-5e-9, True, False, True),
+        (5.1e-9, True, False, False),
+        (-5.1e-9, True, False, False),
+        (0.0, False, False, False),
+        (3.0, False, True, True),
+    ],
+)
+def test_a_contact_touches_where_its_gap_is_closed_and_stays(
+    speed: float, near: bool, closed: bool, touching: bool
+) -> None:
+    s: Any = Touching(*GAPS)
+    s.d, s.fastest, s.gap_stops = 3, np.array([5.0, 2.0, 1.0]), dict.fromkeys(GAPS, "stop")
+    s.closed = {GAPS[1]} if closed else set()
+    asked: list[Any] = []
+    s._touches = lambda stop, side, t, y: asked.append((stop, side)) or near
+    y = np.array([9.0, 9, 9, 9, speed, 9, 9])
+    assert bool(s._touching(GAPS[1], y)) is touching
+    assert asked == ([("stop", 1.0)] if abs(speed) <= 5e-9 and not closed else [])
+
+
+def test_a_guide_with_friction_is_not_followed_on_one_end() -> None:
+    ends = [GapContact("G", f, 1.0, 0.0, 0.0, drive=k) for k, f in enumerate(("gap_behind", "gap_ahead"))]
+    s: Any = Touching(*ends, GapContact("H", "gap", 1.0, 0.0, 0.0, drive=2))
+    s.m = SimpleNamespace(joints={"G": None, "H": None})
+    for moving, resting, closed, refused in (
+        (0.2, 0.0, ends[:1], True),
+        (0.0, 0.2, ends[1:], True),
+        (0.0, 0.0, ends[:1], False),
+        (0.2, 0.2, ends, False),
+        (0.2, 0.2, [], False),
+        (0.2, 0.2, [s.contacts[2]], False),
+    ):
+        contacts = SimpleNamespace(
+            coefficient=np.array([moving, 0.0]), resting=np.array([resting, 0.0]), joint=np.array([0, 1])
+        )
+        s.equation.dry, s.closed = SimpleNamespace(contacts=contacts), set(closed)
+        if refused:
+            with pytest.raises(StoppedError, match="G tips, and its guide has friction"):
+                s._refuse_rough_tips()
+        else:
+            s._refuse_rough_tips()
+            assert s.closed == set(closed)
