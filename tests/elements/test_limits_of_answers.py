@@ -85,7 +85,7 @@ def test_pressures_and_flows_of_a_cylinder_follow_from_its_areas(speed: float, f
     assert c.pressure_low == pytest.approx(c.pressure)
     assert c.pressure_high == pytest.approx(c.pressure)
     into, out = (cap, ring) if speed > 0 else (ring, cap)
-    assert (c.flow_in, c.flow_out) == (pytest.approx([into * abs(speed)]), pytest.approx([out * abs(speed)]))
+    assert (c.flow_in, c.flow_out) == (pytest.approx([into * abs(speed)]), pytest.approx([out * abs(speed)]))  # type: ignore[comparison-overlap]
     assert c.power == pytest.approx([force * speed])
     assert (c.length.tolist(), c.speed.tolist()) == ([1.0], [speed])
     with pytest.raises(da.ModelError, match="drive 'D' is not a cylinder"):

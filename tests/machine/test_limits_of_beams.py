@@ -102,8 +102,8 @@ def test_speeds_by_the_books_add_the_masses_one_by_one() -> None:
     assert sag.min() < 0
     assert -sag.max() == pytest.approx(0, abs=1e-12)
     still = _without_spin(BEAM)
-    assert [p.polar for p in (*still.points, *still.spread)] == [0, 0, 0]
-    assert [p.diametral for p in (*still.points, *still.spread)] == [0.2, 0.1, 0.02]
+    assert [p.polar for p in (*still.points, *still.spread)] == [0, 0, 0]  # type: ignore[attr-defined]
+    assert [p.diametral for p in (*still.points, *still.spread)] == [0.2, 0.1, 0.02]  # type: ignore[attr-defined]
     with_line = Beam(2.0, steps, [0.0, 2.0], [], [], [SpreadMass(0.0, 2.0, 4.0)])
     low, high, _ = _by_the_books(beam_model(with_line, 16))
     even = math.pi**2 / 4 * math.sqrt(90 / 4)
@@ -206,9 +206,9 @@ def test_a_member_of_a_line_of_joints_begins_at_the_first_of_its_named_points() 
         assert one.start.tolist() == pytest.approx(joints[0].tolist())
         assert one.ends == (("A", "end") if joints[0] is high else ("start", "A"))
         two = _line(link({"B": (2.0, 0.0), "A": (-1.0, 0.0)}), "rod", np.array(joints))
-        assert (two.ends, two.length) == (("B", "A"), pytest.approx(3.0))
+        assert (two.ends, two.length) == (("B", "A"), pytest.approx(3.0))  # type: ignore[comparison-overlap]
         aside = _line(link({"A": (-9.0, 1.0)}), "rod", np.array(joints))
-        assert (aside.ends, aside.length) == (("start", "end"), pytest.approx(1.5))
+        assert (aside.ends, aside.length) == (("start", "end"), pytest.approx(1.5))  # type: ignore[comparison-overlap]
     with pytest.raises(da.ModelError, match="has no length: its points are none"):
         _line(link({}), "rod", np.zeros((2, 3)))
 

@@ -164,10 +164,10 @@ def test_mass_numbers_are_a_vector_and_back(d: int) -> None:
         points = [(m, p * [1, 1, 0]) for m, p in points]
     mass, moment = 5.0, sum(m * p for m, p in points)
     second = sum(m * np.outer(p, p) for m, p in points)
-    found = MassNumbers(mass, moment, second).vector(d)
-    xx, yy, zz, xy, xz, yz = (second[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)))
+    found = MassNumbers(mass, moment, second).vector(d)  # type: ignore[arg-type]
+    xx, yy, zz, xy, xz, yz = (second[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)))  # type: ignore[index]
     rest = [xx + yy] if d == 2 else [xx, yy, zz, xy, xz, yz]
-    assert found == pytest.approx([mass, *moment[:d], *rest])
+    assert found == pytest.approx([mass, *moment[:d], *rest])  # type: ignore[index]
     u = units(d)
     assert [len(x) for x in u] == [count] * 3
     assert np.array([MassNumbers(*(x[k] for x in u)).vector(d) for k in range(count)]) == pytest.approx(
@@ -213,7 +213,7 @@ def test_masses_that_are_added_keep_moment_and_inertia_of_all() -> None:
     link = with_masses(m, {"crank": parts}).links["crank"]
     center = (2 * np.array([0.1, 0.05]) + 3 * np.array([-0.2, 0.1])) / 5
     spread = sum(w * ((np.array(c) - center) ** 2).sum() for w, c in ((2, (0.1, 0.05)), (3, (-0.2, 0.1))))
-    assert (link.mass, link.center) == (pytest.approx(5), pytest.approx(center))
+    assert (link.mass, link.center) == (pytest.approx(5), pytest.approx(center))  # type: ignore[comparison-overlap]
     assert link.inertia == pytest.approx(0.03 + spread)
     assert with_masses(m, {"crank": parts[1:]}).links["crank"] == m.links["crank"]
     arm = np.array([1.0, -2, 3])
@@ -289,7 +289,7 @@ def test_aims_name_a_reduction_and_a_quantity() -> None:
         ({"force": 0.0}, r, "no objective to minimise"),
     ):
         with pytest.raises(da.ModelError, match=said):
-            _wanted(of, by)  # type: ignore[arg-type]
+            _wanted(of, by)
 
 
 def test_values_over_instants_are_those_that_are_known() -> None:

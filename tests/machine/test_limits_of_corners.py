@@ -27,7 +27,7 @@ UNKNOWN: Any = None
 
 def test_functions_with_corners_go_on_straight_on_either_side() -> None:
     for side in (1.0, -1.0):
-        of = sided(lambda x, side=side: side)
+        of = sided(lambda x, side=side: side)  # type: ignore[misc]
         assert (of["sign"](7.0), of["abs"](0.25), of["abs"](-3.0)) == (side, 0.25 * side, -3.0 * side)
         assert of["max"](2.5, 7.0) == (2.5 if side > 0 else 7.0)
         assert of["min"](2.5, 7.0) == (7.0 if side > 0 else 2.5)
@@ -86,7 +86,7 @@ def test_a_table_is_on_its_piece_until_it_is_flipped() -> None:
     s.flip(1, -1.0)
     assert s.at({"O": 2.5}) == pytest.approx(6.5)
     s.flip(0, -1.0)
-    assert (s.sides, s.at({"O": 2.5})) == ({0: 1.0}, pytest.approx(6.0))
+    assert (s.sides, s.at({"O": 2.5})) == ({0: 1.0}, pytest.approx(6.0))  # type: ignore[comparison-overlap]
     other = s.again()
     assert (other.sides, other.what, other.value) == ({}, "load 'F'", s.value)
 
@@ -107,8 +107,8 @@ def test_a_periodic_table_counts_its_pieces_on(x: float, side: int, value: float
 
 def test_an_expression_keeps_its_sides_and_says_what_is_no_number() -> None:
     m = da.slider_crank().with_values({"loads.load.value": ["abs(O2 - 1)", 0.0]})
-    value = m.loads["load"].value[0]  # type: ignore[union-attr]
-    s = Sided(value, "load 'F'")
+    value = m.loads["load"].value[0]  # type: ignore[index,union-attr]
+    s = Sided(value, "load 'F'")  # type: ignore[arg-type]
     assert s.at({"O2": 3.0}) == pytest.approx(2.0)
     assert s.at({"O2": 0.25}) == pytest.approx(-0.75)
     assert (s.sides, s.switches, s.side(0)) == ({0: 1.0}, [-0.75], 1.0)
@@ -117,7 +117,7 @@ def test_an_expression_keeps_its_sides_and_says_what_is_no_number() -> None:
     assert not s.beyond
     assert has_corners(value)
     smooth = da.slider_crank().with_values({"loads.load.value": ["cos(O2)", 0.0]})
-    assert not has_corners(smooth.loads["load"].value[0])  # type: ignore[union-attr]
+    assert not has_corners(smooth.loads["load"].value[0])  # type: ignore[index,union-attr]
 
 
 @pytest.mark.parametrize(
@@ -204,7 +204,7 @@ class Corners(CornerState):
     """A state of one freedom at a rate, whose pace is 4 / s."""
 
     def __init__(self, *switching: Switch) -> None:
-        self.d, self.switching, self.told = 1, [*switching], []
+        self.d, self.switching, self.told = 1, [*switching], []  # type: ignore[var-annotated]
 
     def pace(self, t: float, y: Any) -> float:
         return 4.0
@@ -212,7 +212,7 @@ class Corners(CornerState):
     def rate(self, t: float, y: Any) -> Any:
         return np.array([y[1], 6.0])
 
-    def note(self, *said: Any) -> None:
+    def note(self, *said: Any) -> None:  # type: ignore[override]
         self.told.append(said)
 
 

@@ -373,6 +373,6 @@ def test_steps_are_stored_with_their_design_and_version_and_margins_remembered()
     ]
     c.bearing[:] = [1.0, 2.0, 30.0]
     watched = np.zeros((2, 2, 8))
-    watched[0, :, 1:3], watched[1, :, 1:3] = [[3.0, -9], [4, 5]], [[3.0, -9], [4, 5]]
+    watched[0, :, 1:3], watched[1, :, 1:3] = [[3.0, -9], [4, 5]], [[3.0, -9], [4, 5]]  # type: ignore[assignment]
     c._see_margins(np.array([1, 2]), watched)
     assert c.bearing.tolist() == [1.0, 9.0, 30.0]

@@ -49,10 +49,10 @@ def test_inner_forces_are_those_of_the_piece_at_a_place() -> None:
     assert c.at(0.75)[0, 0] == pytest.approx(behind)
     assert c.at(0.75, "before")[0, 0] == pytest.approx(before)
     assert c.at(0.75, "behind")[0, 0] == pytest.approx(behind)
-    assert c.at([0.0, 2.0])[0] == pytest.approx(
+    assert c.at([0.0, 2.0])[0] == pytest.approx(  # type: ignore[arg-type]
         np.stack([COEFFICIENTS[0, :, 0], COEFFICIENTS[1] @ [1, 2, 4, 8]])
     )
-    assert c.at([0.5, 1.0]).shape == (1, 2, 6)
+    assert c.at([0.5, 1.0]).shape == (1, 2, 6)  # type: ignore[arg-type]
     assert c.name == "A-B"
     for wrong in (-0.01, 2.01):
         with pytest.raises(da.ModelError, match="is not along member A-B; give 0 to 2 m"):

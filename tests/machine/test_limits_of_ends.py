@@ -61,11 +61,11 @@ def test_what_is_awaited_is_said_in_words() -> None:
     assert s._awaited == "A.speed = 0 or B.position = 2 m are"
     s.conditions = s.conditions[:2]
     assert s._awaited == "A.speed = 0 is"
-    s.rows, s.taken = [(1.0,)], 7
+    s.rows, s.taken = [(1.0,)], 7  # type: ignore[list-item]
     s._give_up(2.0, UNKNOWN)
     assert (s.status, say(s.ended)) == ("not_met", "A.speed = 0 is not met within 7 steps, to 2 s")
     assert s.done == ["samples", ("keep", 2.0), "samples"]
-    s.done, s.rows = [], [(2.0,)]
+    s.done, s.rows = [], [(2.0,)]  # type: ignore[list-item]
     s._give_up(2.0, UNKNOWN)
     assert s.done == ["samples"]
     s._give_up(50.0, UNKNOWN)
@@ -75,7 +75,7 @@ def test_what_is_awaited_is_said_in_words() -> None:
 
 def test_a_motion_that_stops_keeps_the_state_that_it_reached() -> None:
     s = Told()
-    s.rows, s.reached = [(1.0,)], (2.0, UNKNOWN)
+    s.rows, s.reached = [(1.0,)], (2.0, UNKNOWN)  # type: ignore[list-item]
     s.stop(StoppedError("it jams"))
     assert s.done == ["samples", ("keep", 2.0), "samples"]
     assert (s.status, say(s.ended)) == ("stopped", "stopped at 1 s: it jams")
@@ -90,7 +90,7 @@ def test_a_motion_that_stops_keeps_the_state_that_it_reached() -> None:
         s._interrupted()
     s.rows, s.parts = [(1.0,), (1.5,)], [1, 2, 3]  # type: ignore[list-item]
     s._interrupted()
-    assert (s.status, say(s.ended), s.parts) == ("interrupted", "interrupted at 1.5 s", [1, 2])
+    assert (s.status, say(s.ended), s.parts) == ("interrupted", "interrupted at 1.5 s", [1, 2])  # type: ignore[comparison-overlap]
 
 
 @dataclass
@@ -187,7 +187,7 @@ def test_a_joint_starts_between_its_stops_full_turns_counted(x: float, placed: f
     s: Any = object.__new__(StopState)
     stop = Stop("J", "turn", Stops(-0.5, 1.0), joint=0)
     s._place_at_start(stop, x, 3.0)
-    assert stop.looks == [(0.0, pytest.approx(placed, abs=1e-8), 3.0)]
+    assert stop.looks == [(0.0, pytest.approx(placed, abs=1e-8), 3.0)]  # type: ignore[comparison-overlap]
 
 
 @pytest.mark.parametrize(

@@ -70,7 +70,7 @@ def test_a_condition_names_a_drive_its_quantity_and_a_value(
 ) -> None:
     for kind_of in (None, UNKNOWN):
         (found,) = read_end(FOUR, [1.0, text], [], kind_of)[1]
-        assert found == EventCondition(text.strip(), drive, what, pytest.approx(value), True)
+        assert found == EventCondition(text.strip(), drive, what, pytest.approx(value), True)  # type: ignore[arg-type]
     state = np.array([0.5, 0.25, 7.0, 9.0])  # of two drives
     assert found.place(2) == (2 if what == "speed" else 0)
     assert found.value_at(2)(1.0, state) == pytest.approx((7.0 if what == "speed" else 0.5) - value)

@@ -321,7 +321,7 @@ def test_a_contact_touches_where_its_gap_is_closed_and_stays(
     s.d, s.fastest, s.gap_stops = 3, np.array([5.0, 2.0, 1.0]), dict.fromkeys(GAPS, "stop")
     s.closed = {GAPS[1]} if closed else set()
     asked: list[Any] = []
-    s._touches = lambda stop, side, t, y: asked.append((stop, side)) or near
+    s._touches = lambda stop, side, t, y: asked.append((stop, side)) or near  # type: ignore[func-returns-value]
     y = np.array([9.0, 9, 9, 9, speed, 9, 9])
     assert bool(s._touching(GAPS[1], y)) is touching
     assert asked == ([("stop", 1.0)] if abs(speed) <= 5e-9 and not closed else [])

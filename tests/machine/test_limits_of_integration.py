@@ -25,7 +25,7 @@ class Told(Integration):
         self.equation: Any = SimpleNamespace(dry=None, joints=("X", "Y"))
         self.locked, self.bound, self.rubs = np.zeros(2, bool), np.zeros(2, bool), np.ones(2, bool)
         self.inertia, self.fastest = np.array([2.0, 5.0]), np.array([4.0, 3.0])
-        self.sense, self.events, self.ends, self.done = np.ones(2), [], [], []
+        self.sense, self.events, self.ends, self.done = np.ones(2), [], [], []  # type: ignore[var-annotated]
         self.coded, self.careful, self.tolerance, self.refusal = UNKNOWN, False, 1e-9, ""
         self.limits = SimpleNamespace(steps=100, time=50.0)  # type: ignore[assignment]
         self.taken, self.status, self.conditions, self.ended = 0, "ended", [], ()
@@ -320,7 +320,7 @@ def test_a_corner_is_met_a_little_behind_its_zero() -> None:
     s: Any = Told()
     s.rate = lambda t, y: np.ones(2)
     for side in (1.0, -1.0):
-        g = Guard("corner", 0, lambda t, y, side=side: side * (2.0 - y[0]), side)
+        g = Guard("corner", 0, lambda t, y, side=side: side * (2.0 - y[0]), side)  # type: ignore[misc]
         when, y = s._beyond(g, 2.0, np.array([2.0, 5.0]), side * 3.0)
         assert 3.0 * integration.BEYOND < y[0] - 2.0 < 12.0 * integration.BEYOND + 1e-14
         assert when - 2.0 == pytest.approx(y[0] - 2.0)

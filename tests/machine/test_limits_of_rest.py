@@ -165,7 +165,7 @@ def test_locked_drives_are_loose_beyond_their_ranges() -> None:
 def test_the_instant_at_which_a_part_is_let_go_is_found_by_halving() -> None:
     s = Resting(0.0, 0.0, 0.0)
     for at in (0.37, 1e-9, 2.0):
-        s._yields = lambda t, y, at=at: t >= at  # type: ignore[method-assign]
+        s._yields = lambda t, y, at=at: t >= at  # type: ignore[method-assign,misc]
         assert s._loosening(0.0, 2.0, lambda t: UNKNOWN) == pytest.approx(at, rel=1e-13)
 
 
@@ -209,11 +209,11 @@ def test_motors_at_rest_are_switched_by_time() -> None:
 
 def test_loads_over_time_let_go_at_their_instant() -> None:
     s = Waiting(yields=1.2345678)
-    s.by_time, s.tables = [UNKNOWN], [SimpleNamespace(next_point=lambda t: math.inf)]
+    s.by_time, s.tables = [UNKNOWN], [SimpleNamespace(next_point=lambda t: math.inf)]  # type: ignore[list-item]
     assert s._let_go(0.0, 5.0, UNKNOWN) == pytest.approx(1.2345678, rel=1e-13)
     points = [0.5, 2.0, 4.5, 7.0]
-    s.tables = [SimpleNamespace(next_point=lambda t: next((x for x in points if x > t), math.inf))]
-    s.tables += [SimpleNamespace(next_point=lambda t: 3.0 if t < 3 else math.inf)]
+    s.tables = [SimpleNamespace(next_point=lambda t: next((x for x in points if x > t), math.inf))]  # type: ignore[list-item]
+    s.tables += [SimpleNamespace(next_point=lambda t: 3.0 if t < 3 else math.inf)]  # type: ignore[list-item]
     assert s._bends(0.25, 4.5) == [0.25, 0.5, 2.0, 3.0]
     assert s.next_bend(3.5) == 4.5
     s.tables, s.acting.next_joint = [], lambda t: t + 9

@@ -129,9 +129,9 @@ def test_a_corner_that_is_passed_and_passed_back_within_a_step_is_met() -> None:
     found, g = dips(low)
     assert found
     assert g.turned == pytest.approx(2.2, abs=1e-5)
-    assert dips(lambda x: -low(x), side=-1.0)[0]
-    assert not dips(lambda x: low(x) + 0.02)[0]
-    assert dips(lambda x: low(x) + 0.02)[1].turned == math.inf
+    assert dips(lambda x: -low(x), side=-1.0)[0]  # type: ignore[no-untyped-call]
+    assert not dips(lambda x: low(x) + 0.02)[0]  # type: ignore[no-untyped-call]
+    assert dips(lambda x: low(x) + 0.02)[1].turned == math.inf  # type: ignore[no-untyped-call]
     assert not dips(low, trend=1.0)[0]
     assert not dips(low, "contact")[0]
     assert not dips(low, side=0.0)[0]

@@ -33,7 +33,9 @@ class Struck(StopState):
     def __init__(self, restitution: float = 0.5, free: Any = (True, True), dry: bool = False) -> None:
         self.d, self.lengths = 2, np.ones(2)
         self.acting: Any = SimpleNamespace(
-            free=np.array(free), take_ways=lambda toward: np.array(self.rotor), names=("A", "B")
+            free=np.array(free),
+            take_ways=lambda toward: np.array(self.rotor),
+            names=("A", "B"),  # type: ignore[has-type]
         )
         self.rotor = [0.0, 0.0]
         self.stops = [
@@ -44,7 +46,7 @@ class Struck(StopState):
         self.fastest, self.toward, self.sense = np.array([1.0, 2.0]), np.ones(2), np.zeros(0)
         self.locked, self.on_stop, self.rubs = np.zeros(2, bool), np.zeros(2), np.zeros(2, bool)
         self.stuck = self.tied = self.bound = np.zeros(2, bool)
-        self.losses, self.events, self.settled, self.noted = [], [], [], []
+        self.losses, self.events, self.settled, self.noted = [], [], [], []  # type: ignore[var-annotated]
 
         def terms(t: float, q: Any, u: Any) -> Any:
             row = [q[0] + 2 * q[1], u[0] + 2 * u[1], 0.0, 1.0, 2.0]
@@ -93,9 +95,9 @@ def test_one_stop_is_struck_by_newtons_law(
     push = MASS @ (before - after)
     assert push / np.linalg.norm(push) == pytest.approx(n / np.linalg.norm(n))
     (event,) = s.events
-    assert (event.name, event.of, event.speed) == ("impact", "ABJ"[which], pytest.approx(closing))
+    assert (event.name, event.of, event.speed) == ("impact", "ABJ"[which], pytest.approx(closing))  # type: ignore[comparison-overlap]
     assert event.lost == pytest.approx(kinetic(before) - kinetic(after))
-    assert s.losses == [(2.0, pytest.approx(event.lost))]
+    assert s.losses == [(2.0, pytest.approx(event.lost))]  # type: ignore[comparison-overlap]
     ends = {0: (0, 1.0), 1: (1, -3.0)}
     if which in ends:
         k, place = ends[which]
@@ -154,7 +156,7 @@ def test_a_rotor_behind_a_gear_takes_part_and_keeps_its_loss_for_itself() -> Non
     n = np.array([1.0, 0])
     ease = np.linalg.solve(mass, n)
     assert y[2:4] == pytest.approx(np.array([3.0, -4.0]) - ease * 4.5 / ease[0])
-    assert s.losses[0] == (2.0, pytest.approx(-1.5 * (9 - 2.25) / 2))
+    assert s.losses[0] == (2.0, pytest.approx(-1.5 * (9 - 2.25) / 2))  # type: ignore[comparison-overlap]
     assert len(s.losses) == 2
 
 
