@@ -32,12 +32,12 @@ class Struck(StopState):
 
     def __init__(self, restitution: float = 0.5, free: Any = (True, True), dry: bool = False) -> None:
         self.d, self.lengths = 2, np.ones(2)
+        self.rotor: Any = [0.0, 0.0]
         self.acting: Any = SimpleNamespace(
             free=np.array(free),
             take_ways=lambda toward: np.array(self.rotor),
-            names=("A", "B"),  # type: ignore[has-type]
+            names=("A", "B"),
         )
-        self.rotor = [0.0, 0.0]
         self.stops = [
             Stop("A", "slide", Stops(-9.0, 1.0, restitution), drive=0),
             Stop("B", "slide", Stops(-3.0, 9.0, restitution), drive=1),
