@@ -22,7 +22,7 @@ TURN = 2 * math.pi
 
 def table(form: str, follower: Any, profile: dict[str, Any], zero: float = 0.0) -> Array:
     """Pieces of a cam with a profile of this form."""
-    cam = Cam(links=("cam", "stem"), follower=follower, profile=profile)  # type: ignore[arg-type]
+    cam = Cam(links=("cam", "stem"), follower=follower, profile=profile)
     return CURVES[form](cam, "F", zero)
 
 
@@ -249,8 +249,8 @@ def test_a_tangent_cam_has_flanks_along_lines_and_a_nose_about_its_centre(roller
     x = np.linspace(-1, 1, 5) * (half - reach) * 0.99
     at = curve(rows, zero + x)[0] * np.exp(1j * x) - far
     assert np.abs(at) == pytest.approx([nose] * 5, rel=1e-12)
-    for x in (zero + half + 1e-3, zero + math.pi, zero + TURN - half - 1e-3):
-        assert curve(rows, np.array([x]))[0] == pytest.approx(0.025 + roller, rel=1e-12)
+    for direction in (zero + half + 1e-3, zero + math.pi, zero + TURN - half - 1e-3):
+        assert curve(rows, np.array([direction]))[0] == pytest.approx(0.025 + roller, rel=1e-12)
     sentence, path = refused("tangent", "flat", {"tangent": tangent})
     assert sentence == (
         "cam 'F': a flat face does not move on the flanks of a tangent cam, and jumps from end to end; "
