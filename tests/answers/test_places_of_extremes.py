@@ -95,7 +95,7 @@ def test_a_position_by_no_word_is_by_its_number_or_its_drive() -> None:
         ),
     ):
         with pytest.raises(ModelError) as raised:
-            position_lookup.position_at(r, at)  # type: ignore[arg-type]
+            position_lookup.position_at(r, at)
         assert str(raised.value) == sentence
     said = position_lookup.position_sentence
     assert said(r, 1) == "Position 2 of 3, O = 2 rad."

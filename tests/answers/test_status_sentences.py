@@ -14,6 +14,7 @@ from dalembert.analysis.status import brake_verdicts, freewheeling, lost_contact
 from dalembert.analysis.status import slipping_belts as belts
 from dalembert.analysis.status import slipping_ropes as ropes
 from dalembert.errors import ModelError
+from dalembert.model.quantities.coordinates import quantity_name
 
 NAN, INF = math.nan, math.inf
 TWO, ONE = np.array([1, 2]), np.array([2])
@@ -296,7 +297,7 @@ def test_positions_outside_tables_say_which_ends_they_passed_most() -> None:
         ]
     )
     assert outside_tables.outside(c).tolist() == [True, True, True]
-    name = outside_tables.quantity_name("drives.S")
+    name = quantity_name("drives.S")
     first = (
         f"Load 'F': its table covers {name} = 200..500 mm, here {name} = %s mm; the value at the end was used"
     )
@@ -371,7 +372,7 @@ def test_a_belt_that_slips_says_what_it_needs_and_from_which_torque_on(
 
 
 def test_ropes_that_hang_slack_or_slip_say_in_which_strand_and_on_which_wheel() -> None:
-    wheel = SimpleNamespace(holds=0.4, wedge=0.5, link="drum")
+    wheel: Any = SimpleNamespace(holds=0.4, wedge=0.5, link="drum")
     tension = np.array([[9.0, -90.0, 1.0], [5.0, -2.0, -3.0], [5.0, -2.0, -4.0]])
     lines = ropes.RopeLines(
         tension,
@@ -379,7 +380,7 @@ def test_ropes_that_hang_slack_or_slip_say_in_which_strand_and_on_which_wheel() 
         tension,
         (wheel,),
         tension,
-        np.array([[9.0], [0.6], [0.5]]),  # type: ignore[arg-type]
+        np.array([[9.0], [0.6], [0.5]]),
     )
     c = compiled()
     c.mechanism.ropes = {"R": SimpleNamespace(RING=False), "T": SimpleNamespace(RING=True)}
