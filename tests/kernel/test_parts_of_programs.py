@@ -210,6 +210,10 @@ def test_a_given_effort_of_a_frame_is_met_within_a_part_of_the_largest() -> None
     (value,) = g.evaluate([margin], {x.index: 4.0, y.index: 4.0 + 1e-9})
     assert value == pytest.approx(2e-11 - 1e-9, rel=1e-5)
     assert doubts.unmet(None, [m], np.array([n, y]), n) == []
+    frame.driven = 0
+    assert len(doubts.unmet(frame, [], np.array([n, y]), n)) == 1
+    (low,) = g.evaluate([margin], {x.index: 4.0, y.index: 4.0 - 1e-9})
+    assert low == pytest.approx(value, rel=1e-5)
     frame.driven = -1
     assert doubts.unmet(frame, [m], np.array([n, y]), n) == []
 
