@@ -68,7 +68,7 @@ def on_card(
     monkeypatch: pytest.MonkeyPatch, part: int, slots: Any = (), columns: Array = COLUMNS
 ) -> tuple[Card, Array, Array, list[Any]]:
     card, told = Card(), list[Any]()
-    monkeypatch.setitem(sys.modules, "cupy", card)  # type: ignore[arg-type]
+    monkeypatch.setitem(sys.modules, "cupy", card)
     monkeypatch.setattr(cuda, "PART", part)
     out, code = cuda.run(
         program(), slots, VALUES, columns, np.array([0.5]), lambda done, of: told.append((done, of))
@@ -124,7 +124,7 @@ def test_reductions_have_one_thread_a_design(monkeypatch: pytest.MonkeyPatch) ->
 def test_a_machine_without_a_card_says_what_is_lacking(
     card: Card | None, sentence: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(sys.modules, "cupy", card)  # type: ignore[arg-type]
+    monkeypatch.setitem(sys.modules, "cupy", card)
     with pytest.raises(RuntimeError) as raised:
         cuda.card()
     assert str(raised.value) == sentence
@@ -132,5 +132,5 @@ def test_a_machine_without_a_card_says_what_is_lacking(
 
 def test_a_card_is_used_if_there_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
     for card in (Card(1), Card(2)):
-        monkeypatch.setitem(sys.modules, "cupy", card)  # type: ignore[arg-type]
+        monkeypatch.setitem(sys.modules, "cupy", card)
         assert cuda.card() is card
