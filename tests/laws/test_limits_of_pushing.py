@@ -227,7 +227,7 @@ def test_rows_one_after_the_other_have_the_positions_of_both() -> None:
     assert both.on_i[3, :, 0].tolist() == [2.0, 5.0]
     assert both.on_j[2, :, 1].tolist() == [3.0, 7.0]
     assert both.at(slice(0, 2)).on_j.shape == (2, 2, 3)
-    assert both.rows([1]).on_i[0, 0].tolist() == [5.0] * 3
+    assert both.rows(slice(1, None)).on_i[0, 0].tolist() == [5.0] * 3
 
 
 # gears in space
