@@ -189,7 +189,7 @@ def misfit(scale: float, gap: float, inside: float, internal: bool = False) -> A
         mechanism=SimpleNamespace(joints={"G": SimpleNamespace(internal=internal)}),
     )
     rows = [np.array([x]) for x in (2, scale, gap, inside)]
-    return positions._check_misfit(c, rows)  # type: ignore[arg-type,func-returns-value]
+    return positions._check_misfit(c, rows)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
