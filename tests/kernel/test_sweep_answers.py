@@ -174,16 +174,23 @@ def test_problems_are_runs_of_one_status_and_reason() -> None:
     assert broken([["mine", "ok", "ok"], ["ok"] * 3], [[None] * 3] * 2).problems()[0][1:] == ("mine", "mine")
 
 
+LEAST = "a sweep needs at least one value for each path; give a list of values"
+
+
 @pytest.mark.parametrize(
     ("vary", "values", "together", "sentence"),
-        ({MASS: [1], POINT: None}, None, False, "a sweep needs at least one value for each path; give a list of "
-         "values"),
+    [
         (MASS, None, False, 'a sweep needs values for its path; da.sweep(m, "links.rod.mass", [1, 2, 3])'),
-        ({MASS: [1]}, [1], False, 'a sweep needs values for its path; da.sweep(m, "links.rod.mass", [1, 2, 3])'),
+        (
+            {MASS: [1]},
+            [1],
+            False,
+            'a sweep needs values for its path; da.sweep(m, "links.rod.mass", [1, 2, 3])',
+        ),
         (MASS, "1 kg", False, 'a sweep needs values for its path; da.sweep(m, "links.rod.mass", [1, 2, 3])'),
-        (MASS, [], False, "a sweep needs at least one value for each path; give a list of values"),
-        ({MASS: [1], POINT: None}, None, False, "a sweep needs at least one value for each path; give a list of values"),
-        ({}, None, False, "a sweep needs at least one value for each path; give a list of values"),
+        (MASS, [], False, LEAST),
+        ({MASS: [1], POINT: None}, None, False, LEAST),
+        ({}, None, False, LEAST),
         (
             {MASS: [1, 2], POINT: [1, 2, 3]},
             None,
@@ -197,7 +204,7 @@ def test_problems_are_runs_of_one_status_and_reason() -> None:
             f"10004000 designs are too many: 4000 of {MASS}, 2501 of {POINT}; ask for at most 10000000",
         ),
     ],
-)  # fmt: skip
+)
 def test_values_that_are_none_or_do_not_fit_are_refused(
     vary: Any, values: Any, together: bool, sentence: str
 ) -> None:
