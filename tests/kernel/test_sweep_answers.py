@@ -26,9 +26,15 @@ def machine() -> da.Mechanism:
     return da.mechanism(tree | {"units": {"length": "mm"}})
 
 
+def arm() -> float:
+    """The number at POINT."""
+    crank: Any = machine().links["crank"]
+    return float(crank.points["A"][0])
+
+
 @cache
 def grid() -> da.Sweep:
-    a = float(machine().links["crank"].points["A"][0])
+    a = arm()
     return da.sweep(
         machine(), {MASS: [1.0, 2.0, "4 kg"], POINT: [a, 1.02 * a]}, outputs=["effort.O2", "reaction.A"]
     )
@@ -36,14 +42,12 @@ def grid() -> da.Sweep:
 
 @cache
 def paired() -> da.Sweep:
-    a = float(machine().links["crank"].points["A"][0])
+    a = arm()
     return da.sweep(machine(), {MASS: [1.0, 2.0], POINT: [a, 1.02 * a]}, outputs="effort.O2", together=True)
 
 
 def answer(mass: float, factor: float = 1.0) -> da.Result:
-    m = machine()
-    a = float(m.links["crank"].points["A"][0])
-    return da.dynamics(m.with_values({MASS: mass, POINT: factor * a}))
+    return da.dynamics(machine().with_values({MASS: mass, POINT: factor * arm()}))
 
 
 def test_a_grid_has_an_axis_a_path_and_pairs_have_one() -> None:
@@ -70,7 +74,7 @@ def test_a_grid_has_an_axis_a_path_and_pairs_have_one() -> None:
 
 
 def test_designs_are_named_by_their_values_as_they_were_given() -> None:
-    a = 1e3 * float(machine().links["crank"].points["A"][0])
+    a = 1e3 * arm()
     masses, places = ["1 kg", "2 kg", "4 kg"], [f"{x / 1e3:.6g} m" for x in (a, 1.02 * a)]
     assert grid().designs == [(mass, place) for mass in masses for place in places]
     assert paired().designs == [("1 kg", places[0]), ("2 kg", places[1])]
@@ -104,7 +108,7 @@ def test_columns_have_a_row_a_position_of_each_design() -> None:
     assert found["design"][1] == [k for k in range(1, 7) for _ in range(3)]
     assert found["position"][1] == [1, 2, 3] * 6
     assert found[MASS] == ("mass", [m for m in (1.0, 2.0, 4.0) for _ in range(6)])
-    a = float(machine().links["crank"].points["A"][0])
+    a = arm()
     assert found[POINT] == (
         "length",
         pytest.approx([x for _ in range(3) for x in (a, 1.02 * a) for _ in range(3)]),
