@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Iterator
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -289,7 +289,7 @@ class Read(NamedAnswer):
     ROW = "design"
     mechanism = SimpleNamespace(title="")
     codes = np.array([["ok", "ok", "stuck"], ["ok", "stuck", "ok"]], object)  # type: ignore[assignment]
-    values: Any = {
+    values: ClassVar[Any] = {
         "a": np.array([[1.0, -5.0, NAN], [2.0, 3.0, 4.0]]),
         "v": np.arange(12.0).reshape(2, 3, 2),
         "none": np.full((2, 3), NAN),
