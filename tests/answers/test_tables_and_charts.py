@@ -372,3 +372,14 @@ def test_values_are_equal_item_by_item() -> None:
         (np.array(["a"]), np.array(["a"])),
     ):
         assert equal(a, b)
+
+
+def test_an_answer_may_have_one_column() -> None:
+    class One(Rows):
+        def columns(self, axes: Any = "ground") -> Iterator[Column]:
+            yield Column("stroke", "length", np.array([0.1, 0.2]))
+
+    assert list(rows(One(), "file", "ground")) == [["design", "stroke [mm]"], [3, 100.0], [4, 200.0]]
+    assert list(column_records(One(), "SI", "ground")) == [{"stroke": 0.1}, {"stroke": 0.2}]
+    assert [d.title for d in column_diagrams(One(), Scale(None), "ground")] == ["Length"]
+    assert list(column_arrays(One(), Scale(None), "ground")[1]["design"]) == [3, 4]

@@ -264,3 +264,9 @@ def test_what_is_taken_out_takes_with_it_what_needs_it() -> None:
     )
     said = "ground is the name of the fixed link; rename another link"
     assert refused({"op": "rename", "kind": "links", "name": "ground", "to": "earth"}) == said
+
+
+def test_drives_of_pins_follow_the_bar_that_was_moved() -> None:
+    named = TEXT.replace("  O: {position: 40}", "  D: {joint: O, position: 40}\n  A: {position: 3 rad}")
+    drives = done({"op": "move", "link": "bar", "point": "A", "to": [0.03, 0.04]}, draft(named))["drives"]
+    assert drives == {"D": {"joint": "O", "position": pytest.approx(53.13)}, "A": {"position": "3 rad"}}
