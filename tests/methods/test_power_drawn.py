@@ -140,6 +140,7 @@ def test_power_that_goes_round_is_said_below_all_boxes() -> None:
     (line,) = (i for i in scene.items if isinstance(i, Line))
     assert line.points[0] == pytest.approx((0.0, low - 8))
     assert line.points[1] == pytest.approx((6.0, low - 8))
+    assert "circulate beyond the input" in scene.to_svg()
 
 
 def test_nodes_stand_in_columns_by_how_power_reaches_them() -> None:

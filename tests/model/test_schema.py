@@ -143,3 +143,12 @@ def test_variables_of_the_caller_have_no_part_in_how_a_part_is_read() -> None:
     for kind in parts(Part):
         of_the_caller = dict.fromkeys([*vars(sys.modules[kind.__module__]), "object", "Any", "Tree"], 3)
         assert kind.model_rebuild(force=True, _types_namespace=of_the_caller)
+
+
+def test_it_is_the_same_each_time_and_a_law_does_instead_of_a_stiffness_or_damping() -> None:
+    assert json_schema() == json_schema()
+    for kind, key in (("Spring", "stiffness"), ("Damper", "damping")):
+        part = json_schema()["$defs"][kind]
+        assert key not in part["required"]
+        assert part["anyOf"] == [{"required": [key]}, {"required": ["force"]}]
+    assert "default" not in json_schema()["$defs"]["Band"]["properties"]["radius"]

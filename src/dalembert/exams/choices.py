@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
+from fractions import Fraction
 from typing import NamedTuple
 
 from dalembert.errors import ModelError
@@ -15,6 +16,9 @@ from dalembert.wording import quote_value
 
 MOST = 10_000
 """Values that one quantity may be drawn from."""
+
+DIGITS = 15
+"""Digits of a step that ends; of another there are 12."""
 
 FEWEST = 5
 """Values that a range without a step has at least."""
@@ -75,7 +79,7 @@ def _values(path: str, stated: object) -> Sequence[object]:
     low, high = Decimal(start), Decimal(stop)
     if not low < high:
         raise ModelError(f"--vary {path}: the range does not increase from {low} to {high}", FORMS)
-    size = _round_step(high - low) if step is None else Decimal(step) * _ratio(path, each or named, named)
+    size = _round_step(high - low) if step is None else _in_units(path, step, each or named, named)
     if size <= 0:
         raise ModelError(f"--vary {path}: the step {step} is not positive", FORMS)
     begin = low if step is not None else (low / size).to_integral_value("ROUND_CEILING") * size
@@ -101,11 +105,16 @@ def _round_step(span: Decimal) -> Decimal:
     return next(step for step in steps if span / step >= FEWEST - 1)
 
 
-def _ratio(path: str, step: str, named: str) -> Decimal:
-    """Factor from the unit of a step to that of the range."""
-    if step == named:
-        return Decimal(1)
-    a, b = unit(step), unit(named)
+def _in_units(path: str, step: str, of: str, named: str) -> Decimal:
+    """A step in the unit of the range, exact where its digits end."""
+    if of == named:
+        return Decimal(step)
+    a, b = unit(of), unit(named)
     if a.dimension != b.dimension:
-        raise ModelError(f"--vary {path}: the step is in {step}, the range in {named}", "write one unit")
-    return Decimal(f"{b.of_si(a.si(1.0)):.12g}")
+        raise ModelError(f"--vary {path}: the step is in {of}, the range in {named}", "write one unit")
+    up, down, over, under = (
+        Fraction(repr(x)) for x in (a.numerator, a.denominator, b.denominator, b.numerator)
+    )
+    size = Fraction(step) * up * over / (down * under)
+    exact = Decimal(size.numerator) / Decimal(size.denominator)
+    return exact if len(exact.as_tuple().digits) <= DIGITS else Decimal(f"{exact:.12g}")

@@ -17,6 +17,10 @@ def json_schema() -> Tree:
     for part in schema["$defs"].values():
         if "type" in part.get("properties", {}):
             part["required"] = ["type", *(key for key in part.get("required", []) if key != "type")]
+        for key in ("stiffness", "damping"):  # or a law instead of it
+            if key in part.get("required", []) and "force" in part["properties"]:
+                part["required"].remove(key)
+                part["anyOf"] = [{"required": [key]}, {"required": ["force"]}]
     schema["properties"]["copies"] = copies_schema()
     return (
         {"$schema": "https://json-schema.org/draft/2020-12/schema"}

@@ -71,7 +71,7 @@ class ValueField:
         )
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
-        return self.json_schema()
+        return dict(self.json_schema())  # the default of a field is put into it
 
 
 class Scalar(ValueField):

@@ -72,8 +72,9 @@ class AsWritten:
         """Loads whose values are expressions of parameters."""
         loads = self._at(["loads"])
         names = list(loads) if isinstance(loads, Mapping) else []
+        raw = {name: self._at(["loads", name, "value"]) for name in names}
         return [
-            name for name in names if any(map(_is_expression, _parts(self._at(["loads", name, "value"]))))
+            name for name in names if raw[name] is not None and any(map(_is_expression, _parts(raw[name])))
         ]
 
     def drive(self, name: str, kinds: Mapping[str, str]) -> str:

@@ -62,7 +62,7 @@ def power_scene(f: PowerFlow, notation: Notation | None = None) -> Scene:
     if f.circulating[0] > 0:
         low = min(y - height[n] / 2 for n, (_, y) in place.items()) - 8.0
         text = f"{shown.text('power', float(f.circulating[0]))} circulate beyond the input"
-        canvas.add(Line(((0.0, low), (6.0, low)), "missing"), Text((8.0, low), text, 2.8, "note", "start"))
+        canvas.add(Line(((0.0, low), (6.0, low)), "resultant"), Text((8.0, low), text, 2.8, "note", "start"))
     return canvas.scene("Power flow")
 
 
