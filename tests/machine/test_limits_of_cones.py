@@ -267,8 +267,15 @@ def test_weights_of_what_counts_add_up_to_one() -> None:
     assert problem.predict("force", numbers) == pytest.approx(BASE["force"] + COLUMNS["force"] @ numbers)
 
 
+FOUND: Any = {
+    "unknown_loads": (),
+    "compiled": SimpleNamespace(known=SimpleNamespace(requested=np.array([True, True]))),
+}
+"""All efforts are found, and no load."""
+
+
 def test_aims_name_a_reduction_and_a_quantity() -> None:
-    r: Any = SimpleNamespace(drives=("O2", "O4"))
+    r: Any = SimpleNamespace(drives=("O2", "O4"), **FOUND)
     assert _aim("rms shaking_force", "moment", r) == ("rms", "force")
     assert _aim(" peak shaking_moment", "force", r) == ("max", "moment")
     assert _aim("max effort.O2", "force", r) == ("max", "torque")
@@ -282,7 +289,7 @@ def test_aims_name_a_reduction_and_a_quantity() -> None:
         assert said in str(refused.value)
     assert _wanted("force", r) == {"force": 1.0}
     assert _wanted({"force": 0.5, "torque": 2.0}, r) == {"force": 0.5, "torque": 2.0}
-    still: Any = SimpleNamespace(drives=())
+    still: Any = SimpleNamespace(drives=(), **FOUND)
     for of, by, said in (
         ({"speed": 1.0}, r, "'speed' is not an objective"),
         ("torque", still, "no drive has a torque"),

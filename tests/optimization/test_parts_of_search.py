@@ -118,7 +118,9 @@ def test_designs_side_by_side_that_a_search_finds_are_sorted_by_their_aims(
 
 def three(low: Any, high: Any) -> OneByOne:
     m = da.four_bar(positions=3)
-    return OneByOne(m, ("a", "b", "c"), np.array(low), np.array(high), ("x", "y"), {}, True, None)
+    return OneByOne(
+        m, ("a", "b", "c"), np.array(low), np.array(high), ("x", "y"), {}, True, None, da.statics(m)
+    )
 
 
 def test_differences_are_of_neighbours_from_the_bound_that_is_farther_away(
@@ -152,7 +154,15 @@ def test_a_design_is_analysed_once_and_has_no_numbers_without_an_answer() -> Non
     m = da.four_bar(positions=3)
     path = "links.coupler.points.B.0"
     some = OneByOne(
-        m, (path,), np.array([0.01]), np.array([0.4]), ("effort.O2", "angle.rocker"), {}, True, None
+        m,
+        (path,),
+        np.array([0.01]),
+        np.array([0.4]),
+        ("effort.O2", "angle.rocker"),
+        {},
+        True,
+        None,
+        da.statics(m),
     )
     length = float(m.links["coupler"].points["B"][0])  # type: ignore[arg-type]
     own = da.statics(m)

@@ -225,9 +225,7 @@ class Study:
 
     def answer(self, m: Mechanism) -> Result:
         """The analysis of one design, as of all of them: `mechanism_of` makes it; of a motion along it."""
-        if self.motion is not None:
-            return self.motion.of(m).result
-        return solve(m, self.static, self.positions)
+        return self.motion.of(m).result if self.motion else solve(m, self.static, self.positions)
 
     def with_limits(self, limits: Mapping[str, str]) -> Study:
         """The same study with other limits: output -> what it has to keep, as ``"< 45 N*m"``."""
@@ -246,11 +244,10 @@ class Study:
 
     def block_size(self) -> int:
         """Designs of a block of a new store: a power of two, of a tenth of a second, at most 64 MB."""
-        engine = self.engine
-        kept = 1 if self.reduce else engine.positions
+        kept = 1 if self.reduce else self.engine.positions
         each = 8 * (len(self.paths) + 3 * kept * len(self.outputs))
-        most = min(engine.most_at_once, BLOCK_BYTES // each)
-        size = 1 << max(0, min(most, max(self.count // 16, 16 if engine.why else 4096)).bit_length() - 1)
+        most = min(self.engine.most_at_once, BLOCK_BYTES // each)
+        size = 1 << max(0, min(most, max(self.count // 16, 16 if self.why_slow else 4096)).bit_length() - 1)
         while self.count / size > MOST_BLOCKS:
             size *= 2
         return size
@@ -316,10 +313,9 @@ class Study:
     def tree(self) -> Tree:
         """The study in plain values, from which `study_of_tree` restores it; a table of designs is separate."""
         p = self.plan
-        spreads = [{"kind": s.kind, "a": s.a, "b": s.b, "levels": list(s.levels)} for s in p.spreads]
         return {
             "vary": list(p.paths),
-            "spreads": spreads,
+            "spreads": [{"kind": s.kind, "a": s.a, "b": s.b, "levels": list(s.levels)} for s in p.spreads],
             "draw": p.draw,
             "designs": p.count,
             "seed": p.seed,

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
 from dalembert.core.position.first_pose_plane import Guess, phase_rows
 from dalembert.errors import ModelError
-from dalembert.model import AtPositions, Mechanism, Schedule
+from dalembert.model import Mechanism, Schedule
 
 
 @dataclass(frozen=True)
@@ -155,7 +156,7 @@ def _poses_with_ground(result: Result) -> Pose:
     return Pose(point, *result.compiled.layout.algebra.with_ground(result.turn_array, result.rotation_array))
 
 
-def in_mode_of(m: Mechanism, nominal: Result, positions: AtPositions = None) -> Mechanism:
+def in_mode_of(m: Mechanism, nominal: Result, positions: Any = None) -> Mechanism:
     """A design in the assembly mode of another one's analysis; as it is where it begins at other positions."""
     if not np.array_equal(m.schedule(positions).position[:1], nominal.schedule.position[:1]):
         return m
