@@ -18,7 +18,7 @@ MOST = 10_000
 """Values that one quantity may be drawn from."""
 
 DIGITS = 15
-"""Digits of a step that ends; of another there are 12."""
+"""Most digits of a step in another unit; one that has more is rounded to 12."""
 
 FEWEST = 5
 """Values that a range without a step has at least."""

@@ -187,8 +187,16 @@ class DesignProblem:
         box = self.low, self.high
         if self.motion is not None:
             return AlongMotions(self.mechanism, paths, *box, tuple(names), self.motion)
-        asked = tuple(names), self.functions, self.static, self.requested
-        return OneByOne(self.mechanism, paths, *box, *asked, self.nominal_answer)
+        return OneByOne(
+            self.mechanism,
+            paths,
+            *box,
+            outputs=tuple(names),
+            functions=self.functions,
+            static=self.static,
+            requested=self.requested,
+            nominal=self.nominal_answer,
+        )
 
     @property
     def _plain(self) -> list[str]:

@@ -64,8 +64,8 @@ class Comparison(MachineAnswer, Remade):
 
 def balanced_drive(r: Result) -> str | None:
     """The first drive, whose effort moves added masses too; none where an effort is given and a load moves them."""
-    found = not r.unknown_loads and r.compiled.known.requested.all()
-    return r.drives[0] if r.drives and found else None
+    every = not r.unknown_loads and r.compiled.known.requested.all()
+    return r.drives[0] if r.drives and every else None
 
 
 def values_of(s: Shaking) -> dict[str, Array]:

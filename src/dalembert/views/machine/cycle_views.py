@@ -96,7 +96,8 @@ def _trade_off(b: Balance, axis: ChartAxis) -> list[Scene]:
     """The minimized quantity against the first one that is not, where one increases as the other decreases."""
     if len(b.result.status) < 3 or not b.result.drives:
         return []
-    other = next((n for n in ("torque", "force", "moment") if n in b.problem.base and n not in b.of), None)
+    others = [name for name in ("torque", "force", "moment") if name in b.problem.base and name not in b.of]
+    other: str | None = next(iter(others), None)
     try:
         pairs = 100 * np.array(b.trade_off(other) if other else [(0.0, 0.0)])
     except ModelError:  # the other asks for bounds that are not given
