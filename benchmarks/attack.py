@@ -138,7 +138,8 @@ def backwards(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
     """Positions in the other order: forces of a position do not depend on the list."""
     if m.assembly or len(r.status) < 2 or r.mechanism.dimension == 3 or r.compiled.counts:
         return
-    if not all(d.law is None for d in m.drives.values()) or len(m.drives) != 1:
+    listed = any(isinstance(x, tuple) for d in m.drives.values() for x in (d.speed, d.acceleration))
+    if listed or not all(d.law is None for d in m.drives.values()) or len(m.drives) != 1:
         return
     (name,) = m.drives
     tree = m.to_tree()
