@@ -196,7 +196,7 @@ def test_neighbours(text: str, step: int, least: int) -> None:
     assert len(check([("itself", tree), *some])) >= (least or len(every) // 3)
 
 
-@over_seeds([], range(100), block=3)
+@over_seeds([], range(100), block=1)
 def test_neighbours_of_random_mechanisms(seed: int) -> None:
     """A fiftieth of those in the plane, in space and with friction, each before and after the others."""
     drawn = (plane_tree(random_case(seed).drawing), rough_tree(seed), space_tree(random_space_case(seed)))

@@ -109,7 +109,7 @@ def test_a_changed_tree_is_refused_or_answered_honestly(seed: int) -> None:
     check(mutated(bases()[seed % len(bases())], seed))
 
 
-@pytest.mark.parametrize("block", tiers((), range(1), range(1, 100)))
+@pytest.mark.parametrize("block", tiers((), (), range(100)))
 def test_a_hundred_thousand_changed_trees(block: int) -> None:
     for seed in range(1000 * (block + 1), 1000 * (block + 2)):
         check(mutated(bases()[seed % len(bases())], seed))

@@ -123,9 +123,9 @@ def test_a_force_of_teeth_is_split_along_the_line_of_centres_and_across_it() -> 
 def test_teeth_are_pushed_from_the_side_of_the_other_wheel() -> None:
     """From a wheel's centre to the pitch point; inside a ring the other way."""
     r = gears()
-    for name, joint in r.mechanism.joints.items():
-        if not joint.TOOTHED:
-            continue
+    toothed = {name: joint for name, joint in r.mechanism.joints.items() if joint.TOOTHED}
+    assert toothed
+    for name, joint in toothed.items():
         on, force, e = tooth_force(r, name, 0)
         assert on == (joint.links[1] if joint.links[1] != "ground" else joint.links[0])
         assert force == pytest.approx(r.reaction(name, on)[0])

@@ -214,7 +214,7 @@ def test_a_long_chain_takes_no_more_stations_than_a_short_one(monkeypatch: pytes
     assert long <= short
 
 
-@pytest.mark.long
+@pytest.mark.exhaustive
 def test_scissor_of_four_hundred_stages() -> None:
     m = scissor(400, positions=2)
     r = solve(m)

@@ -44,7 +44,7 @@ def test_a_changed_tree_is_refused_or_answered_honestly(seed: int) -> None:
     check(retyped(mutated(bases()[seed % len(bases())], seed), seed))
 
 
-@pytest.mark.parametrize("block", tiers((), range(1), range(1, 200)))
+@pytest.mark.parametrize("block", tiers((), (), range(200)))
 def test_fifty_thousand_changed_trees(block: int) -> None:
     for seed in range(250 * (block + 4), 250 * (block + 5)):
         check(retyped(mutated(bases()[seed % len(bases())], seed), seed))
