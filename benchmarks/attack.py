@@ -37,13 +37,11 @@ from typing import Any
 
 import numpy as np
 from changed_models import ROOT, changed_model
+from tests.kernel.comparing import changed, difference, every_number
 
 import dalembert as da
 from dalembert.analysis.batch.tracing.symbolic_model import with_numbers
 from dalembert.errors import FORCED, NUMBERED, DalembertError
-
-sys.path.insert(0, str(ROOT))
-from tests.kernel.comparing import changed, difference, every_number
 
 BUILD = ROOT / "build" / "attack"
 SECONDS = 60
@@ -236,9 +234,8 @@ def refusing(what: str, make: Callable[[], Any]) -> Findings:
     """It answers, or refuses with a sentence; its text can be printed."""
     try:
         answer = make()
-        for said in (getattr(answer, "text", None),):
-            if callable(said):
-                yield from no_nan(said(), what)
+        if callable(said := getattr(answer, "text", None)):
+            yield from no_nan(said(), what)
     except DalembertError as error:
         yield from sentence(error)
     except LateError:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import random
+import sys
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from functools import cache
@@ -19,8 +20,11 @@ from dalembert.errors import DalembertError
 from dalembert.model.files.model_files import read_file
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+from tests.laws.mutations import get, paths, put  # noqa: E402
+
 FOLDERS = ("src/dalembert/model/library/files", "tests/elements", "tests/machine", "tests/friction")
-Path_ = tuple[Any, ...]
 Tree = dict[str, Any]
 
 FACTORS = (0.0, -1.0, 0.5, 2.0, 1.01, 0.9, 1.3, 1e-3, 1e3)
@@ -69,22 +73,6 @@ def _models(tree: Any) -> Iterator[tuple[str, Tree]]:
     for key, value in tree.items():
         if isinstance(value, dict) and "links" in value:
             yield f":{key}", value
-
-
-def paths(node: Any, at: Path_ = ()) -> list[Path_]:
-    """Every place of a tree below the root."""
-    children = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
-    return [p for key, child in children for p in [(*at, key), *paths(child, (*at, key))]]
-
-
-def get(tree: Any, path: Path_) -> Any:
-    for key in path:
-        tree = tree[key]
-    return tree
-
-
-def put(tree: Any, path: Path_, value: Any) -> None:
-    get(tree, path[:-1])[path[-1]] = value
 
 
 def changed_model(rng: random.Random) -> tuple[str, Tree]:
