@@ -257,3 +257,38 @@ def test_parts_of_a_vector_turn_with_the_drive_or_against_it() -> None:
         harmonics(z.real[1:], q, 2)
     with pytest.raises(da.ModelError, match="position 3 has no value"):
         harmonics(np.where(np.arange(12) >= 2, np.nan, 1.0), q, 2)
+
+
+ROD_IN_TWO = """
+links:
+  ground: {points: {O: [0, 0], D: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}}
+  rod: {points: {A: [0, 0], S: [0.15, 0]}, mass: 2, center: [0.075, 0], SECTION}
+  end: {points: {S: [0, 0], B: [0.25, 0]}, mass: 3, center: [0.125, 0], SECTION}
+  ram: {points: {B: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  S: {type: weld, links: [rod, end]}
+  B: {type: pin, links: [end, ram]}
+  D: {type: slider, links: [ground, ram], at: [D, B]}
+drives: {D: {position: POSITIONS}}
+""".replace("SECTION", "mass_along: uniform, section: {circle: 20 mm, elasticity: 210 GPa}")
+
+
+def test_a_shaft_is_as_long_whichever_positions_close() -> None:
+    """Its pieces are placed at the first position that has a pose; without any there is nothing to say."""
+
+    def answered(positions: str) -> da.Result:
+        return da.statics(da.loads(ROD_IN_TWO.replace("POSITIONS", positions)))
+
+    closed, late, never = (answered(x) for x in ("[0.45]", "[0.7, 0.45]", "[0.7, 0.8]"))
+    assert late.status == ("not_assembled", closed.status[0])
+    speeds = da.critical_speeds(closed, "end").speeds
+    assert da.critical_speeds(late, "end").speeds == pytest.approx(speeds)
+    assert da.critical_speeds(late, "rod").supports == pytest.approx({"A": 0.0, "B": 0.4})
+    with pytest.raises(da.ModelError, match="no position has a pose of link 'rod'; see the reasons"):
+        da.critical_speeds(never, "rod")
+    for name in ("rod", "end"):
+        assert np.isnan(never[f"bearing_slope.{name}"]).all()
+        assert np.isnan(late[f"bearing_slope.{name}"]).tolist() == [True, False]

@@ -81,10 +81,11 @@ def _deflection(r: Result, link: str) -> Array:
 
 
 def _slope(r: Result, link: str) -> Array:
-    """Greatest slope of a link in its bearings, rad."""
+    """Greatest slope of a link in its bearings, rad; NaN where it has none."""
     from dalembert.machine.members.member_forces import member_forces
 
-    return np.asarray(np.max([*member_forces(r, link).deflection().slopes().values()], axis=0))
+    slopes = member_forces(r, link).deflection().slopes()
+    return np.max([*slopes.values()], axis=0) if slopes else np.full(len(r.status), np.nan)
 
 
 def _life(r: Result, joint: str) -> Array:

@@ -131,7 +131,10 @@ class Deflections(Compared):
     def slopes(self) -> dict[str, Array]:
         """Slope at each joint that a member's line goes through (P,), rad: the angle in its bearing."""
         return {
-            name: values for e in self.members for name, values in zip(e.supports, e.slopes().T, strict=True)
+            name: values
+            for e in self.members
+            if e.supports
+            for name, values in zip(e.supports, e.slopes().T, strict=True)
         }
 
 

@@ -86,8 +86,12 @@ def _placed(r: Result, link: str, line: PlacedMember | None = None) -> tuple[Sha
         )
     placed = PlacedMember(forces, forces.curves[0])
     along = line or placed
-    away, t = placed.start[0] - along.start[0], along.axes[0][0]
-    sense, start = float(placed.axes[0][0] @ t), float(away @ t)
+    known = np.flatnonzero(np.isfinite(placed.start).all(axis=1) & np.isfinite(along.start).all(axis=1))
+    if not known.size:
+        raise ModelError(f"no position has a pose of link {link!r}", "see the reasons: dalembert solve")
+    k = known[0]
+    away, t = placed.start[k] - along.start[k], along.axes[k][0]
+    sense, start = float(placed.axes[k][0] @ t), float(away @ t)
     off = float(np.linalg.norm(away - start * t)) / along.length
     straight = off <= NEAR and abs(abs(sense) - 1) <= NEAR
     joints = {n: float(np.nanmean(s)) for n, s in placed.joints.items()}
