@@ -203,8 +203,6 @@ def balance(
     wanted, allowed, before = _wanted(of, r), counterweights(r.mechanism, weights), shaking(r, about)
     base = {name: v.reshape(len(v), -1) for name, v in values_of(before).items()}
     refuse_unknown(r, "balancing needs every position", *base.values(), r.acceleration_array)
-    floors = {n: before.floor("force" if n == "force" else "moment") for n in base}
-    base = {n: v if np.abs(v).max() > floors[n] else 0 * v for n, v in base.items()}
     columns = mass_columns(r, allowed, before.point, balanced_drive(r))
     problem = BalanceProblem(base, columns.of, tuple(allowed.items()), columns.axes)
     solved = problem.solve(least, wanted)

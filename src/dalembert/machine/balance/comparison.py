@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.answer.answer import Remade
 from dalembert.answer.column import Axes, Column, Scale
 from dalembert.arrays import Array, Tree
@@ -71,8 +74,14 @@ def balanced_drive(r: Result) -> str | None:
 def values_of(s: Shaking) -> dict[str, Array]:
     """Force and moment of inertia, which added masses are to make small, and the effort of the first drive if any.
 
-    No added mass changes a load from outside, so neither that nor the weights are part of what is to be least.
+    No added mass changes a load from outside, so neither that nor the weights are part of what is to be least. What is
+    rounding beside the forces of the machine at all positions is 0.
     """
-    drive = balanced_drive(s.result)
-    torque = {} if drive is None else {"torque": s.result.effort(drive)}
-    return dict(zip(("force", "moment"), s.parts["inertia"], strict=True)) | torque
+    r = s.result
+    drive = balanced_drive(r)
+    torque = {} if drive is None else {"torque": r.effort(drive)}
+    out = dict(zip(("force", "moment"), s.parts["inertia"], strict=True)) | torque
+    carried = PART * float(sizes(r)["force"].max(initial=0.0))  # an effort moves loads too
+    floors = {"force": s.floor("force"), "moment": s.floor("moment")}
+    floors["torque"] = max(floors["moment"], carried * r.compiled.layout.length)
+    return {name: v if np.abs(v).max(initial=0.0) > floors[name] else 0 * v for name, v in out.items()}

@@ -195,6 +195,7 @@ class Integration(StepState):
     ) -> tuple[float, Array] | None:
         """The first event within the last step and the state behind it; None where there is none."""
         dense: Any = None
+        self._look_within(guards, solver, before)
         crossed = [
             g
             for g in guards

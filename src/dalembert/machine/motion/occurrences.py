@@ -9,6 +9,7 @@ from math import inf, nan
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import minimize_scalar
 
 from dalembert.answer.column import Scale
 from dalembert.arrays import Array
@@ -102,6 +103,11 @@ class Guard:
     least: float = 0.0
 
     @property
+    def anywhere(self) -> bool:
+        """True if it may pass zero more than once within a step, as steps are not chosen by its value."""
+        return self.column < 0 and self.kind in ("corner", "condition")
+
+    @property
     def known(self) -> bool:
         """True if the segment behind an event knows its side by itself."""
         return self.kind not in ("on", "off", "kink", "side", "gear", "condition")
@@ -109,6 +115,42 @@ class Guard:
     def at_zero(self, t: float, y: Array, d: int) -> bool:
         """True if its value is too small for a sign, at a state of d drives."""
         return abs(self.value(t, y)) <= (self.least or 1e-12 * max(float(abs(y[: 2 * d]).max()), 1.0))
+
+
+UNEVEN, FOLLOWS, FINER = 0.38, 0.1, 12
+"""Where between two instants of a step another one is looked at; part of the largest value by which a value may differ
+from the straight line between those beside it; and how often more are looked at."""
+
+
+def first_beyond(value: Callable[[float], float], low: float, high: float) -> float:
+    """The first instant found after ``low``, up to ``high``, at which a function is below zero; infinite where none is.
+
+    The function is looked at ever finer until its values follow from those beside them, and where it has a minimum
+    between two of them.
+
+    >>> first_beyond(lambda t: np.cos(40 * t), 0.0, 3.0) < 3 * np.pi / 80
+    True
+    >>> first_beyond(lambda t: 1.001 + np.cos(40 * t), 0.0, 3.0)
+    inf
+    """
+    t = np.linspace(low, high, 5)
+    v = np.array([value(x) for x in t.tolist()])
+    for _ in range(FINER):
+        new = t[:-1] + UNEVEN * np.diff(t)
+        between = np.array([value(x) for x in new.tolist()])
+        off = np.abs(between - v[:-1] - UNEVEN * np.diff(v))
+        order = np.argsort(np.concatenate([t, new]), kind="stable")
+        t, v = np.concatenate([t, new])[order], np.concatenate([v, between])[order]
+        if not (off > FOLLOWS * np.abs(v).max()).any():
+            break
+    for k in range(1, len(t)):
+        if v[k] < 0:
+            return float(t[k])
+        if k + 1 < len(t) and v[k - 1] > v[k] <= v[k + 1] and v[k] < (v[k - 1] - v[k]) + (v[k + 1] - v[k]):
+            least = minimize_scalar(value, bounds=(t[k - 1], t[k + 1]), method="bounded")
+            if least.fun < 0:
+                return float(least.x)
+    return inf
 
 
 ROUNDING = 1e-9

@@ -25,7 +25,16 @@ from dalembert.machine.motion.coded.steps import (
     state_sizes,
 )
 from dalembert.machine.motion.equation import StoppedError
-from dalembert.machine.motion.occurrences import ROUNDING, TURNING, EventCondition, Guard, Value, Words, less
+from dalembert.machine.motion.occurrences import (
+    ROUNDING,
+    TURNING,
+    EventCondition,
+    Guard,
+    Value,
+    Words,
+    first_beyond,
+    less,
+)
 from dalembert.machine.motion.rest.standstill import EVEN
 from dalembert.machine.motion.stops.watched_quantities import watched
 from dalembert.model import Mechanism
@@ -274,10 +283,21 @@ class StepState(CodedState):
             return False
         return value * g.side < -g.least
 
+    def _look_within(self, guards: Sequence[Guard], solver: Steps | MachineSteps, before: float) -> None:
+        """Where guards that may pass zero anywhere within the last step, whose length does not follow their values, are
+        first beyond it."""
+        some = [g for g in guards if g.anywhere and g.side]
+        dense = solver.dense_output() if some else None
+        for g in some:
+            g.turned = first_beyond(lambda t, g=g: g.value(t, dense(t)) * g.side, before, solver.t)
+
     def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
-        """True if a corner, a condition or a tooth is passed within the last step, which ends on its first side."""
+        """True if a corner, a condition or a tooth is passed within the last step, which ends on its first side;
+        ``_look_within`` has looked."""
         if g.kind not in TURNING or not g.side:
             return False
+        if g.anywhere:
+            return bool(np.isfinite(g.turned))
         t, y, h = solver.t, solver.y, solver.t - before
         short = 1e-6 * h
         came, g.trend = g.trend, (g.value(t, y) - g.value(t - short, y - short * solver.ahead_rate)) * g.side

@@ -18,9 +18,12 @@ from dalembert.machine.motion.corners.one_sided import Sided, has_corners
 from dalembert.machine.motion.equation import LoadChannel, StoppedError
 from dalembert.machine.motion.occurrences import Guard, Value, Words
 from dalembert.model import Mechanism
+from dalembert.model.quantities.expressions import Expression
 
 AHEAD = 1e-7
 """Part of the characteristic time of the machine's motion, after which the direction of a switch is evaluated."""
+CLEAR = 1e-13
+"""Radians, or sizes of a link, by which a start is beyond the corners that it is at."""
 OFTEN, SOONER, LATER = 1e-3, 0.97, 41
 """A switch that alternates within less than this part of that time, and by this factor sooner than that many times
 before, is a jump at which the machine comes to rest."""
@@ -34,7 +37,8 @@ DRY = (
 @dataclass
 class Switch:
     """Something of a load or effort (``what``) that switches where a value passes zero; ``beyond``: of a table, whether
-    it is past one of its ends; ``words``: what an event says of it, once it has gone over."""
+    it is past one of its ends; ``words``: what an event says of it, once it has gone over; ``nests``: its value may
+    depend on the sides of others, as that of `max(0, sign(x))`."""
 
     what: str
     value: Value
@@ -42,6 +46,7 @@ class Switch:
     flip: Callable[[float], None]
     beyond: Callable[[], bool] = lambda: False
     words: Callable[[float, Array], Words] = lambda t, y: ()
+    nests: bool = True
     passed: list[float] = field(default_factory=list)
 
 
@@ -96,7 +101,8 @@ class CornerState(ElasticState):
 
         for k in range(len(sided.switches)):
             side, flip = partial(sided.side, k), partial(sided.flip, k)
-            yield Switch(sided.what, value(k), side, flip, lambda: sided.beyond, words(k))
+            nests = isinstance(sided.value, Expression)
+            yield Switch(sided.what, value(k), side, flip, lambda: sided.beyond, words(k), nests)
 
     def take_sides(self, t: float, y: Array) -> None:
         """The sides on which all switches are at a state."""
@@ -115,12 +121,31 @@ class CornerState(ElasticState):
     def find_sides(self, t: float, y: Array) -> None:
         """Sides at the start; where something is right at its corner, those that the motion goes to."""
         self.take_sides(t, y)
-        for switch in self.switching:
+        corners = [switch for switch in self.switching if switch.side() == 0]
+        for switch in corners:
             if switch.side() == 0:
                 ahead = self._ahead(switch, t, y)
-                switch.flip(float(np.sign(ahead)))
+                self._flip(switch, float(np.sign(ahead)), t, y)
                 if self._ahead(switch, t, y) * ahead < 0:
                     raise StoppedError(f"{switch.what} {HOLDS}")
+        if corners:
+            self._leave_corners(t, y)
+
+    def _leave_corners(self, t: float, y: Array) -> None:
+        """Go on by so little that all that analyse the start see the sides that the motion goes to."""
+        moved = np.where(self.acting.free, self.soon(t, y)[1][: self.d] - y[: self.d], 0.0)
+        if (largest := float(np.abs(moved / self.lengths).max())) > 0:
+            y[: self.d] += CLEAR / largest * moved
+
+    def _flip(self, switch: Switch, side: float, t: float, y: Array) -> None:
+        """Take a switch to a side, and others whose values jump with it to those that they are on then."""
+        nested = [s for s in self.switching if s.nests and s is not switch]
+        before = [s.value(t, y) for s in nested]
+        switch.flip(side)
+        for other, was in zip(nested, before, strict=True):
+            now = other.value(t, y)
+            if now != was and now * other.side() <= 0:
+                self._flip(other, float(np.sign(now or self._ahead(other, t, y))), t, y)
 
     def _ahead(self, switch: Switch, t: float, y: Array) -> float:
         """Change of a switch over a short time, all sides unchanged."""
@@ -144,7 +169,7 @@ class CornerState(ElasticState):
     def go_over(self, g: Guard, t: float, y: Array) -> None:
         """Take a switch to its other side; StoppedError where its jump pushes back at once."""
         switch = self.switching[g.which]
-        switch.flip(-g.side)
+        self._flip(switch, -g.side, t, y)
         faster = y.copy()
         faster[self.d : 2 * self.d] *= 1 + AHEAD
         faster[self.d : 2 * self.d] += AHEAD * self.pace(t, y)

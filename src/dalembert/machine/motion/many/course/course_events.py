@@ -99,10 +99,14 @@ class Course(CourseSteps):
             at = k[met[:, g]]
             place = self._senses.start + guards.which[g]
             self.values[at, place] = -self.values[at, place]
-        for g in guards.those("corner"):
+        corners = guards.those("corner")
+        turned = k[met[:, corners].any(axis=1)]
+        before = self.values[turned]
+        for g in corners:
             at = k[met[:, g]]
             self.lose(at[self.flickers[at] > MANY])
             self.values[at, machine.sides[guards.which[g]]] *= -1
+        self.find_nested_sides(turned, before)
         k, met, rests = self._meet_stops(k, met)
         speed = np.abs(self.y[k, d + machine.free])
         stands = met[:, contacts].any(axis=1) & (speed <= STILL * self.fastest[k].max(axis=1))

@@ -50,15 +50,31 @@ class CourseRest(CourseState):
 
     def _find_sides_ahead(self, k: Ints) -> None:
         """Sides of loads that begin right at their corners: those that the motion goes to."""
+        if not len(k):
+            return
+        for _ in self.machine.sides:  # the inner ones of an expression first
+            self.values[np.ix_(k, self.machine.sides)] = np.sign(self._switching_ahead(k, self.values[k]))
+        self.lose(k[(self.values[np.ix_(k, self.machine.sides)] == 0).any(axis=1)])
+
+    def find_nested_sides(self, k: Ints, before: Array) -> None:
+        """Sides of what jumps with those that have gone over, of designs with values (K, V) before that."""
+        if not len(k):
+            return
+        was = self._switching_ahead(k, before)
+        for _ in self.machine.sides:
+            now, sides = self._switching_ahead(k, self.values[k]), self.values[np.ix_(k, self.machine.sides)]
+            self.values[np.ix_(k, self.machine.sides)] = np.where(
+                (now != was) & (now * sides <= 0), np.sign(now), sides
+            )
+        self.lose(k[(self.values[np.ix_(k, self.machine.sides)] == 0).any(axis=1)])
+
+    def _switching_ahead(self, k: Ints, values: Array) -> Array:
+        """What switches loads (K, S) by values (K, V), a little later by the present ones."""
         machine, place = self.machine, self.machine.code.place("corners")
         rates, h = look(machine.code.steps, self.values[k], self.t[k], self.y[k])[0], SOON * machine.end
         d, later = machine.drives, self.y[k] + h * rates
         later[:, :d] += h**2 / 2 * rates[:, d : 2 * d]
-        ahead = look(machine.code.steps, self.values[k], self.t[k] + h, later)[1][:, place:]
-        sides = self.values[np.ix_(k, machine.sides)]
-        sides = np.where(sides == 0, np.sign(ahead[:, : len(machine.sides)]), sides)
-        self.values[np.ix_(k, machine.sides)] = sides
-        self.lose(k[(sides == 0).any(axis=1)])
+        return look(machine.code.steps, values, self.t[k] + h, later)[1][:, place : place + len(machine.sides)]
 
     def _start_on_stops(self, k: Ints) -> Flags:
         """Finds designs that begin in a clutch that holds; those on a stop, or against a clutch, are left alone."""

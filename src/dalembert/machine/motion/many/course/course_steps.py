@@ -9,12 +9,30 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.kernel.emit.integrator import record_size
-from dalembert.machine.motion.coded.steps import LEAST, first_step, state_sizes
+from dalembert.machine.motion.coded.steps import LEAST, between, first_step, state_sizes
 from dalembert.machine.motion.many.course.course_stops import CourseStops
 from dalembert.machine.motion.many.event_program import look
+from dalembert.machine.motion.occurrences import FOLLOWS
 
 ATTEMPTS, MOST = 16, 20_000
 """Attempts of steps at once, and those after which a design is lost."""
+
+LOOKED_AT = (0.0, 0.2, 0.38, 0.6, 0.81)
+"""Parts of a step at which what switches loads is looked at."""
+
+
+def _unclear(x: Array, v: Array) -> Flags:
+    """Whether functions with values v at places x, both along the first axis, are below zero and come back, or may, or
+    whether a value does not follow from those beside it."""
+    left, right = (v[1:-1] - v[:-2]) / (x[1:-1] - x[:-2]), (v[2:] - v[1:-1]) / (x[2:] - x[1:-1])
+    bend = (right - left) / (x[2:] - x[:-2])
+    off = np.abs(bend) * (x[1:-1] - x[:-2]) * (x[2:] - x[1:-1])
+    slope = left + bend * (x[1:-1] - x[:-2])
+    with np.errstate(all="ignore"):
+        least = np.where((left < 0) & (right > 0), v[1:-1] - slope**2 / (4 * bend), np.inf)
+    back = (v[1:-1] < 0) & (v[2:] >= 0)
+    dips = (least < 0) & (v[2:] >= 0) & (v[:-2] >= 0)
+    return np.asarray((back | dips | (off > 2 * FOLLOWS * np.abs(v).max(axis=0))).any(axis=0))
 
 
 class CourseSteps(CourseStops):
@@ -109,25 +127,49 @@ class CourseSteps(CourseStops):
         crossed |= self._dips(k, records, closing, crossed)
         some = crossed.any(axis=2)
         meets, which = some.any(axis=1), some.argmax(axis=1)
-        kept = taken & (~meets[:, None] | (np.arange(ATTEMPTS) < which[:, None]))
+        cut, too_long = self._first_too_long(k, records, taken, value)
+        cut &= ~meets | (too_long <= which)
+        meets &= ~cut
+        last = np.where(cut, too_long, np.where(meets, which, ATTEMPTS))[:, None]
+        kept, seen = (taken & (np.arange(ATTEMPTS) < last + more) for more in (0, 1))
         self._store(k, records, kept)
-        seen = taken & (~meets[:, None] | (np.arange(ATTEMPTS) <= which[:, None]))
         self.longest[k] = np.maximum(self.longest[k], np.where(seen, records[..., 1], 0.0).max(axis=1))
         speeds = np.where(kept[..., None], np.abs(after[..., d : 2 * d]), 0.0).max(axis=1)
         self.fastest[k] = np.maximum(self.fastest[k], speeds)
         on = ~meets
         self.y[k[on]], self.t[k[on]] = parts[on, :n], parts[on, 3 * n]
         self.h[k[on]], self.growth[k[on]] = parts[on, 3 * n + 1], parts[on, 3 * n + 4]
-        last = ATTEMPTS - 1 - taken[:, ::-1].argmax(axis=1)
-        some = on & taken.any(axis=1)
+        again = records[cut, too_long[cut]]
+        self.y[k[cut]], self.t[k[cut]], self.h[k[cut]] = again[:, 2 : 2 + n], again[:, 0], again[:, 1] / 2
+        last = ATTEMPTS - 1 - kept[:, ::-1].argmax(axis=1)
+        some = on & kept.any(axis=1)
         self.closing[k[some]] = closing[some, last[some]]
-        arrived = on & (parts[:, 3 * n] >= machine.end)
+        arrived = on & ~cut & (parts[:, 3 * n] >= machine.end)
         self.live[k[arrived]] = False
-        stuck = on & ~arrived & (~(parts[:, 3 * n + 1] > 0) | (self.attempts[k] > MOST))
+        stuck = on & ~arrived & (~(self.h[k] > 0) | (self.attempts[k] > MOST))
         self.lose(k[stuck])
         if meets.any():
             place = np.flatnonzero(meets)
             self._meet(k[place], records[place, which[place]], crossed[place, which[place]])
+
+    def _first_too_long(self, k: Ints, records: Array, taken: Flags, ends: Array) -> tuple[Flags, Ints]:
+        """Whether a step of a design is too long to see what switches its loads by its end, and the first of them (K,):
+        that passes zero and comes back, or may, or does not follow from its values beside."""
+        corners = self.machine.guards.those("corner")
+        out: Flags = np.zeros(taken.shape, bool)
+        design, step = np.nonzero(taken)
+        if len(corners) and len(design):
+            rows, of = records[design, step], k[design]
+            size, values = record_size(self.machine.code.steps.n), []
+            for part in LOOKED_AT:
+                t = rows[:, 0] + part * rows[:, 1]
+                y = between(rows[:, :size], t)
+                watched = look(self.machine.code.steps, self.values[of], t, y)[1]
+                values.append(self.columns(y, watched, t)[:, corners] - self.levels[of][:, corners])
+            values.append(ends[design, step][:, corners])
+            v = np.stack(values) * self.side[of][:, corners]
+            out[design, step] = _unclear(np.array([*LOOKED_AT, 1.0])[:, None, None], v).any(axis=-1)
+        return np.asarray(out.any(axis=1)), out.argmax(axis=1)
 
     def _meet(self, k: Ints, records: Array, crossed: Flags) -> None:
         """Go to the first events of designs within steps, and on behind them."""
