@@ -46,8 +46,9 @@ from dalembert.errors import FORCED, NUMBERED, DalembertError
 BUILD = ROOT / "build" / "attack"
 SECONDS = 60
 """Of the processor, for all that is asked of one model at one time."""
-AGREES, NEAR = 1e-6, 1e-5
-"""Differences of two ways, over the largest force of the machine."""
+AGREES, NEAR, DEAD_CENTRE = 1e-6, 1e-5, 300
+"""Differences of two ways, over the largest force of the machine; and how many times the usual force is that of a
+dead centre, beside which two ways may go on differently."""
 Findings = Iterator[str]
 
 
@@ -195,7 +196,19 @@ def kernel(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
             pairs = {(x, y) for x, y in zip(mine, theirs, strict=False) if x != y}
             yield f"kernel of {names_of(k)}: statuses {sorted(pairs)[:4]}"
         elif np.nanmax(np.abs(g.force_array), initial=0) > 1e-6 and difference(k, b, d, g) > NEAR:
+            if _two_modes(k, design, g):
+                continue
             yield f"kernel of {names_of(k)}: differs by {difference(k, b, d, g):.1e}"
+
+
+def _two_modes(k: da.Kernel, design: da.Mechanism, g: da.Result) -> bool:
+    """True where the mode is open: the file's angles are as near to another one, or it begins beside a dead centre."""
+    sizes = np.abs(g.force_array).reshape(len(g.status), -1).max(axis=1, initial=0.0)
+    if np.nanmax(sizes) > DEAD_CENTRE * np.nanmedian(sizes):
+        return True
+    free = k.trace.course.in_mode(design.model_copy(update={"assembly": {}}))
+    other = (da.dynamics if k.trace.inertia else da.statics)(free, method="careful")
+    return bool(np.nanmax(np.abs(other.turn_array - g.turn_array), initial=0.0) > 1e-6)
 
 
 def names_of(k: da.Kernel) -> str:
@@ -363,7 +376,11 @@ def quantities(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
 
 def motions(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
     """Motions under forces: the energy balance, the forces of the computed motion, and a compiled motion."""
-    yield from refusing("simulate", lambda: da.simulate(m, "0.05 s", count=11, steps=400))
+    def begun() -> Any:
+        s = da.simulate(m, "0.05 s", count=11, steps=400)
+        return s if s.status != "stopped" else None  # at a dead centre its last instant is uncertain, and said to be
+
+    yield from refusing("simulate", begun)
     start: dict[str, Any] = {}
     for name in r.drives[:1]:
         turns = m.drives[name].turns
@@ -372,7 +389,8 @@ def motions(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
             "speed": "2 rad/s" if turns else "0.1 m/s",
         }
     s = da.simulate(m, "0.05 s", start=start, count=11, steps=2000)
-    yield from no_nan(s.text(), "simulate")
+    if s.status != "stopped":
+        yield from no_nan(s.text(), "simulate")
     if s.doubt:
         return
     if not s.energy_residual < AGREES or not s.law_residual < AGREES:

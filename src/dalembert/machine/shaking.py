@@ -170,7 +170,8 @@ def _couple(r: Result, loads: Sequence[Action]) -> Array | None:
     """Couple (P, 2) about axes in the plane of what acts on links that lie beside it."""
     places = {link: r.mechanism.links[link].place for link in r.links}
     placed = any(places.values())
-    return np.asarray(sum(places[a.link] * across(a.force) for a in loads)) if placed else None
+    none = np.zeros((len(r.status), 2))  # of no loads too
+    return np.asarray(sum((places[a.link] * across(a.force) for a in loads), none)) if placed else None
 
 
 def _chosen(r: Result, links: Iterable[str] | None) -> tuple[str, ...]:

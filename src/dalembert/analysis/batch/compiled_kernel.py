@@ -381,6 +381,7 @@ class Kernel:
         code, arrays, rates = sides.code, sides.arrays, sides.rates
         if redo:
             moves = course.schedule.moves if code.ndim > 1 else course.schedule.moves.any()
+            moves = moves | bool(course.counted.unknown_loads)  # which may have no power
             code[(code == CODES.index("at_rest")) & moves] = CODES.index("undecided")
         if self.reduce is not None:  # a power or a sum may overflow where no value does
             code[not_finite(code, arrays) & among(code, NUMBERED)] = CODES.index("undecided")

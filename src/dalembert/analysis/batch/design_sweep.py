@@ -148,6 +148,8 @@ def _labels(m: Mechanism, path: str, values: Sequence[Any]) -> Labels:
     changed = [m.with_values({path: v}) for v in ((min(values), max(values)) if plain else values)]
     name = path.removeprefix("parameters.")
     number = VariedNumber(name if name in m.parameters else path, 0.0, name in m.parameters)
+    if plain and isinstance(value_at(changed[-1], number.keys), tuple):  # the first of a key's numbers alone
+        number = VariedNumber(f"{path}.0", 0.0, False)
     shown = values if plain else [value_at(one, number.keys) for one in changed]
     shown = [value.value if isinstance(value, Parameter) else value for value in shown]
     if all(map(_is_number, shown)):

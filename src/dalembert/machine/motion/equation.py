@@ -313,9 +313,9 @@ class Equation:
         return contacts, e
 
 
-def no_inertia(name: str) -> str:
-    """That a drive moves no mass."""
-    return f"a part that moves has no inertia: forces that move {name} move no mass; give its links masses"
+def no_inertia(name: str, where: str = "") -> str:
+    """That a drive moves no mass, if only in a position."""
+    return f"a part that moves has no inertia: forces that move {name} move no mass{where}; give its links masses"
 
 
 def lightest(mass: Array) -> tuple[float, int]:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
@@ -33,6 +34,8 @@ SETTLED = 1e-9
 """Part of a motor's greatest effort by which the one it has come to at rest may differ from that of its curve."""
 EVEN = 1e-10
 """Part of a limit of friction, or of what it accelerates, that is rounding."""
+NOTHING = 1e-24
+"""Part of the inertia of all links that a drive moves by the rounding of their speeds alone."""
 INSTANTS = 400
 """Number of instants at which friction at rest is checked."""
 
@@ -169,8 +172,14 @@ class ContactState:
         if not np.isfinite(mass).all():
             return
         least, k = lightest(mass)
-        if least < WEIGHTLESS:
+        if self.equation.dry and least < WEIGHTLESS:
             raise StoppedError(no_inertia(self.acting.names[free[k]]))
+        c = compile_mechanism(self.m, self.m.schedule())
+        inertia, length = c.forcing.inertia, c.layout.length
+        heavy = float(np.abs(inertia.inertia).sum() + np.abs(inertia.mass).sum() * length**2)
+        arms = np.where(self.acting.turns, 1.0, length)[free]
+        for j in np.flatnonzero(np.abs(mass.diagonal()) * arms**2 <= NOTHING * heavy):
+            raise StoppedError(no_inertia(self.acting.names[free[j]], " in this position"))
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
         """Effort that acts on a drive at rest, and the least and greatest with which it stays at rest."""

@@ -43,9 +43,9 @@ class StickState(CornerState):
     def _settle_start(self, t: float, y: Array) -> None:
         """Sets the senses at the start; parts at rest are held, or move in the sense in which they are pushed."""
         u = y[self.d : 2 * self.d]
+        self._check_inertia(t, y)
         self.find_sides(t, y)
         if self.equation.dry:
-            self._check_inertia(t, y)
             self.sense = np.where(self.rubbing_rates(t, y) < 0, -1.0, 1.0)
         self.toward = np.where(u < 0, -1.0, 1.0)
         self.settle(np.flatnonzero(self.rubs & (u == 0)).tolist(), t, y)
