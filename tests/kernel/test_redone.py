@@ -228,3 +228,20 @@ def test_a_jump_of_acceleration_has_derivatives_on_both_sides() -> None:
     slopes = [side.gradient("effort.O")[0, 4] for side in (answer, answer.after)]
     bend = np.radians(30) / 2 * (np.pi / 0.2) ** 2
     assert np.ravel(slopes) == pytest.approx([-bend, 0.0], abs=1e-9 * bend)
+
+
+def test_an_unknown_load_without_power_at_rest_is_no_state_of_rest() -> None:
+    """A wedge that is given its effort, with an unknown load along the floor on its block, which only rises."""
+    tree = da.wedge().to_tree()
+    tree["drives"]["floor"] |= {"speed": 0, "effort": "5 N"}
+    load = {"type": "force", "on": "block", "at": "B", "value": "unknown", "direction": "0 deg"}
+    tree["loads"] = {"put": load}
+    m = da.mechanism(tree)
+    r = da.statics(m)
+    assert set(r.status) == {"no_balance"}
+    assert da.compile(m, static=True)().status[0].tolist() == list(r.status)
+    tree["loads"] = {"put": load | {"direction": "90 deg"}}
+    m = da.mechanism(tree)
+    r = da.statics(m)
+    assert set(r.status) == {"at_rest"}
+    assert da.compile(m, static=True)().status[0].tolist() == list(r.status)

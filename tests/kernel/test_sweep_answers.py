@@ -13,6 +13,7 @@ import dalembert as da
 from dalembert.analysis.batch import design_sweep
 from dalembert.analysis.batch.sweep_columns import sweep_arrays, sweep_columns
 from dalembert.analysis.batch.sweep_text import sweep_parts
+from dalembert.analysis.batch.tracing.symbolic_model import number_kinds
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.errors import STATUSES, ModelError
 from dalembert.printing import TextTable
@@ -238,3 +239,29 @@ def test_progress_counts_the_designs() -> None:
     told: list[tuple[int, int]] = []
     da.sweep(machine(), MASS, [1.0, 2.0], outputs="effort.O2", progress=lambda *at: told.append(at))
     assert told == [(1, 2), (2, 2)]
+
+
+def test_numbers_that_a_file_writes_by_name_have_their_units() -> None:
+    """A slot has a damping of its slide and one of its turn; a number alone is that of the slide."""
+    text = """
+links:
+  ground: {points: {O: [0, 0]}}
+  bar: {points: {O: [0, 0], A: [0.3, 0]}, mass: 2, center: [0.1, 0], inertia: 0.1}
+  yoke: {points: {O: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, bar]}
+  Y: {type: slider, links: [ground, yoke], at: [O, O], direction: 0 deg}
+  S: {type: slot, links: [yoke, bar], at: [O, A], direction: 90 deg, damping: {slide: 3, turn: 2}}
+drives: {O: {position: 30 deg, speed: 5 rad/s}}
+"""
+    m = da.loads(text)
+    paths = ["joints.S.damping", "joints.S.damping.0", "joints.S.damping.1"]
+    swept = [da.sweep(m, path, [0.5, 8.0], outputs="effort.O") for path in paths]
+    assert [s.labels[path].unit for s, path in zip(swept, paths, strict=True)] == ["N*s/m", "N*s/m", "N*m*s/rad"]
+    alone, slide, turn = (s["effort.O"].ravel() for s in swept)
+    assert not np.allclose(slide, turn)
+    k = da.compile(m, ["joints.S.damping"])
+    assert number_kinds(m, k.trace.numbers) == ("damping", "torsion_damping")
+    other = k([[0.5, 0.0], [8.0, 0.0]])["effort.O"].ravel()
+    assert alone == pytest.approx(other, rel=1e-12)
+    assert slide == pytest.approx(k([[0.5, 2.0], [8.0, 2.0]])["effort.O"].ravel(), rel=1e-12)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert import bundled
 from dalembert.machine.balance.cone_programme import ConeSolution
 from dalembert.machine.balance.counterweights import counterweights
 from dalembert.machine.balance.mass_columns import mass_columns
@@ -122,22 +123,26 @@ def test_an_inclined_cylinder_has_the_series_of_a_level_one(turn: float) -> None
 
 
 @pytest.mark.parametrize(
-    ("gaps", "balance", "said"),
+    ("gaps", "balance", "closure", "said"),
     [
-        ([0.0, DOUBT, DOUBT], DOUBT, ""),
-        ([0.0, 2 * DOUBT, DOUBT], DOUBT, "at 0.25 s accelerations"),
-        ([3 * DOUBT, DOUBT, 2 * DOUBT], DOUBT, "at 0 s and 1 more accelerations"),
-        ([3 * DOUBT, 4 * DOUBT, 2 * DOUBT], DOUBT, "at 0 s and 2 more accelerations"),
-        ([0.0, 0.0, 0.0], 1.1 * DOUBT, "the energy balance has a gap of 1e-05 of the largest energy"),
+        ([0.0, DOUBT, DOUBT], DOUBT, 2 * DOUBT, ""),
+        ([0.0, 2 * DOUBT, DOUBT], DOUBT, 0, "at 0.25 s accelerations"),
+        ([3 * DOUBT, DOUBT, 2 * DOUBT], DOUBT, 0, "at 0 s and 1 more accelerations"),
+        ([3 * DOUBT, 4 * DOUBT, 2 * DOUBT], DOUBT, 0, "at 0 s and 2 more accelerations"),
+        ([0.0, 0.0, 0.0], 1.1 * DOUBT, 0, "the energy balance has a gap of 1e-05 of the largest energy"),
+        ([0.0, 0.0, 0.0], 0.0, 2.1 * DOUBT, "the loops are open by up to 2e-05 m or rad"),
     ],
 )
 def test_a_motion_is_in_doubt_beyond_the_limit_of_its_checks(
-    gaps: list[float], balance: float, said: str
+    gaps: list[float], balance: float, closure: float, said: str
 ) -> None:
-    gap = np.array(gaps)
+    """Of loops beside the machine's length, 2 m here."""
+    gap, layout = np.array(gaps), SimpleNamespace(length=2.0)
     checks = SimpleNamespace(
         law_gap=gap, law_residual=gap.max(), energy_residual=balance, time=np.array([0.0, 0.25, 0.5])
     )
+    checks.closure = closure
+    checks.free_result = SimpleNamespace(compiled=SimpleNamespace(layout=layout))
     doubt: Any = MotionChecks.doubt
     found = doubt.fget(checks)
     assert found.startswith(said)
@@ -315,3 +320,29 @@ def test_a_machine_that_has_no_forces_is_not_balanced(made: Any, drive: str, lin
         da.AnalysisError, match=r"balancing needs every position; position 1: The unknown put"
     ):
         da.balance(r, [link])
+
+
+def test_what_a_damper_between_fixed_points_does_is_rounding_and_nothing_is_left_of_it() -> None:
+    """Its rate is rounding; so is the torque of a machine without mass, before and after."""
+    m = da.load(bundled.cases()["sp-07-hooke-joint-equal-speeds"])
+    tree = m.to_tree()
+    for size in ("40 N*s/m", "4e9 N*s/m"):
+        ends = ["output.E", "ground.O"]
+        tree["loads"] = {"between": {"type": "damper", "between": ends, "damping": size}}
+        r = da.dynamics(da.mechanism(tree))
+        assert np.abs(r.effort_array).max() < 1e-9 * np.abs(r.force_array).max() or not r.force_array.any()
+        b = da.balance(r, ["output"])
+        assert b.sizes(after=False)["torque"] == b.sizes()["torque"] == (0.0, 0.0)
+        assert b.residual == 0
+        assert "There was no force to balance" in b.text()
+        assert "%" not in b.text()
+
+
+def test_loads_of_no_machine_are_no_swaying_couple() -> None:
+    """A locomotive at rest, with a place beside the plane for its links and no load."""
+    m = da.load(bundled.cases()["bal-3-inside-cylinder-locomotive"])
+    still = m.with_values({"drives.O.speed": 0.0, "drives.O.position": [0.0, 1.0]})
+    s = da.shaking(da.statics(still))
+    assert s.couple is not None
+    assert (s.couple.shape, s.couple.any()) == ((2, 2), False)
+    assert "Force and moment on the ground are zero." in s.text()

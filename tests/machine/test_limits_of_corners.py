@@ -11,7 +11,7 @@ import pytest
 
 import dalembert as da
 from dalembert.machine.motion.coded.acting_nodes import within
-from dalembert.machine.motion.corners.corner_events import AHEAD, CornerState, Switch
+from dalembert.machine.motion.corners.corner_events import AHEAD, CLEAR, CornerState, Switch
 from dalembert.machine.motion.corners.elastic_joints import ElasticState
 from dalembert.machine.motion.corners.elastic_stops import ElasticStops, stop_push
 from dalembert.machine.motion.corners.one_sided import Sided, has_corners, sided
@@ -205,6 +205,8 @@ class Corners(CornerState):
 
     def __init__(self, *switching: Switch) -> None:
         self.d, self.switching, self.told = 1, [*switching], []  # type: ignore[var-annotated]
+        self.acting: Any = SimpleNamespace(free=np.array([True]))
+        self.lengths = np.array([1.0])
 
     def pace(self, t: float, y: Any) -> float:
         return 4.0
@@ -232,7 +234,9 @@ def test_a_state_shortly_after_goes_on_with_its_rate() -> None:
 def test_a_switch_at_its_corner_takes_the_side_that_the_motion_goes_to(slope: float, side: float) -> None:
     s = Corners(switch(lambda t, y: slope * y[0], 0.0), switch(lambda t, y: -y[0], 1.0))
     s.take_sides = lambda t, y: None  # type: ignore[method-assign]
-    s.find_sides(0.0, np.array([0.0, 3.0]))
+    start = np.array([0.0, 3.0])
+    s.find_sides(0.0, start)
+    assert start.tolist() == pytest.approx([CLEAR, 3.0], rel=1e-12)  # beyond the corner, for all that look
     assert [x.side() for x in s.switching] == [side, 1.0]
     assert [(g.kind, g.which, g.side) for g in s.corner_guards()] == [
         ("corner", 0, side),

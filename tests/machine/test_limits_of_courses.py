@@ -275,6 +275,9 @@ class Happening(Course):
     def latch(self, k: Any, which: Any) -> None:
         self.latched = (k.tolist(), which.tolist())
 
+    def find_nested_sides(self, k: Any, before: Any) -> None:
+        self.nested = (k.tolist(), before[:, 0].tolist())
+
 
 def happening(*kinds: str, **more: Any) -> Any:
     """Of three designs the second and third meet guards of these kinds."""
@@ -302,6 +305,7 @@ def test_events_of_designs_have_their_consequences() -> None:
     c = happening("contact", "corner")
     assert c.values[:, 10].tolist() == [1.0, -1.0, 1.0]
     assert c.values[:, 0].tolist() == [1.0, 1.0, -1.0]
+    assert c.nested == ([2], [1.0])  # with its side of before
     assert (c.settled, c.begun) == ([], [1, 2])
     assert np.flatnonzero(c.gone[1]).tolist() == [KINDS.index("corner")]
     assert not c.gone[0].any()

@@ -231,7 +231,7 @@ class Checked(MotionChecks):
     def __init__(self, kinetic: Any, potential: Any, gap: Any = (0.0,), **works: Any) -> None:
         self.__dict__["_energies"] = (np.array(kinetic, float), np.array(potential, float))
         self.works = {n: np.array(w, float) for n, w in works.items()}
-        self.__dict__["law_gap"] = np.array(gap)
+        self.__dict__ |= {"law_gap": np.array(gap), "closure": 0.0}
 
     @property
     def time(self) -> Any:

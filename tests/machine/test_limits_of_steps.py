@@ -115,10 +115,10 @@ def test_the_root_of_a_guard_is_within_its_step() -> None:
     assert root(lambda t: 0.15 + (1 - t) * 0.2, 1.0, "slip", least=0.1) == pytest.approx(1.75)
 
 
-def test_a_corner_that_is_passed_and_passed_back_within_a_step_is_met() -> None:
+def test_a_condition_that_is_passed_and_passed_back_within_a_step_is_met() -> None:
     s: Any = Stepping()
 
-    def dips(value: Any, kind: str = "corner", side: float = 1.0, trend: float = -1.0) -> tuple[bool, Guard]:
+    def dips(value: Any, kind: str = "clutch", side: float = 1.0, trend: float = -1.0) -> tuple[bool, Guard]:
         g = Guard(kind, 0, lambda t, y: float(value(y[0])), side, trend)
         solver = SimpleNamespace(
             t=3.0, y=np.array([3.0]), ahead_rate=np.array([1.0]), dense_output=lambda: lambda t: np.array([t])
@@ -136,3 +136,21 @@ def test_a_corner_that_is_passed_and_passed_back_within_a_step_is_met() -> None:
     assert not dips(low, "contact")[0]
     assert not dips(low, side=0.0)[0]
     assert not dips(lambda x: 5 - x)[0]
+
+
+@pytest.mark.parametrize("kind", ["corner", "condition"])
+def test_what_may_pass_zero_anywhere_is_looked_at_within_a_step(kind: str) -> None:
+    """Where steps are not chosen by it: without a number of the state."""
+    s: Any = Stepping()
+    dense = lambda t: np.array([t])  # noqa: E731
+    solver = SimpleNamespace(t=3.0, y=np.array([3.0]), dense_output=lambda: dense)
+    values = (lambda x: (x - 2.2) ** 2 - 0.01, lambda x: (x - 2.2) ** 2 + 0.01, lambda x: math.cos(40 * (x - 1)))
+    guards = [Guard(kind, k, lambda t, y, f=f: float(f(y[0])), 1.0) for k, f in enumerate(values)]
+    plain = Guard(kind, 3, lambda t, y: float(y[0] - 2), -1.0, column=0)
+    unknown = Guard(kind, 4, lambda t, y: -1.0, 0.0)
+    s._look_within([*guards, plain, unknown], solver, 1.0)
+    assert [s._dips(g, solver, 1.0) for g in guards] == [True, False, True]
+    assert abs(guards[0].turned - 2.2) < 0.1
+    assert 1.039 < guards[2].turned < 1.12
+    assert [g.turned for g in (guards[1], plain, unknown)] == [math.inf] * 3
+    assert not s._dips(Guard("clutch", 5, unknown.value, 0.0), solver, 1.0)

@@ -165,4 +165,6 @@ class MotionChecks:
             )
         if self.energy_residual > DOUBT:
             doubts.append(f"the energy balance has a gap of {self.energy_residual:.1g} of the largest energy")
+        if self.closure > DOUBT and self.closure > DOUBT * self.free_result.compiled.layout.length:
+            doubts.append(f"the loops are open by up to {self.closure:.1g} m or rad")
         return "; ".join(doubts)

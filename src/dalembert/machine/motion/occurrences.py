@@ -122,6 +122,22 @@ UNEVEN, FOLLOWS, FINER = 0.38, 0.1, 12
 from the straight line between those beside it; and how often more are looked at."""
 
 
+def lowest(x: Array, v: Array) -> Array:
+    """Least value between three places x (3, ...) of parabolas through values v (3, ...); infinite where they have none
+    there.
+
+    >>> float(lowest(np.array([0.0, 1.0, 3.0]), np.array([4.0, 1.0, 1.0])))
+    0.0
+    """
+    left, right = (v[1] - v[0]) / (x[1] - x[0]), (v[2] - v[1]) / (x[2] - x[1])
+    bend = (right - left) / (x[2] - x[0])
+    slope = left + bend * (x[1] - x[0])
+    with np.errstate(all="ignore"):
+        place = x[1] - slope / (2 * bend)
+        inside = (bend > 0) & (x[0] <= place) & (place <= x[2])
+        return np.where(inside, v[1] - slope**2 / (4 * bend), inf)
+
+
 def first_beyond(value: Callable[[float], float], low: float, high: float) -> float:
     """The first instant found after ``low``, up to ``high``, at which a function is below zero; infinite where none is.
 
@@ -146,10 +162,12 @@ def first_beyond(value: Callable[[float], float], low: float, high: float) -> fl
     for k in range(1, len(t)):
         if v[k] < 0:
             return float(t[k])
-        if k + 1 < len(t) and v[k - 1] > v[k] <= v[k + 1] and v[k] < (v[k - 1] - v[k]) + (v[k + 1] - v[k]):
-            least = minimize_scalar(value, bounds=(t[k - 1], t[k + 1]), method="bounded")
-            if least.fun < 0:
-                return float(least.x)
+        if k + 1 < len(t):
+            near, size = slice(k - 1, k + 2), float(np.ptp(v[k - 1 : k + 2]))
+            if float(lowest(t[near], v[near])) < FOLLOWS * size:
+                least = minimize_scalar(value, bounds=(t[k - 1], t[k + 1]), method="bounded")
+                if least.fun < 0:
+                    return float(least.x)
     return inf
 
 

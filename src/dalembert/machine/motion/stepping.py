@@ -24,7 +24,7 @@ from dalembert.machine.motion.coded.steps import (
     between,
     state_sizes,
 )
-from dalembert.machine.motion.equation import StoppedError
+from dalembert.machine.motion.equation import OPEN, StoppedError
 from dalembert.machine.motion.occurrences import (
     ROUNDING,
     TURNING,
@@ -325,9 +325,12 @@ class StepState(CodedState):
             return g.value(t, dense(t)) * g.side + rounding
 
         after = min(after, g.turned)
-        if value(before) <= 0:
+        first, last = value(before), value(after)
+        if not np.isfinite(first + last):
+            raise StoppedError(OPEN)
+        if first <= 0:
             return before
-        if value(after) >= 0:  # beyond zero by the state's own rounding alone
+        if last >= 0:  # beyond zero by the state's own rounding alone
             return after
         near = (
             1e-15 * max(after, 1e-300) + 1e-300 + (ROUNDING * (after - before) if g.kind == "side" else 0.0)

@@ -34,8 +34,9 @@ SETTLED = 1e-9
 """Part of a motor's greatest effort by which the one it has come to at rest may differ from that of its curve."""
 EVEN = 1e-10
 """Part of a limit of friction, or of what it accelerates, that is rounding."""
-NOTHING = 1e-24
-"""Part of the inertia of all links that a drive moves by the rounding of their speeds alone."""
+NOTHING, ASIDE = 1e-24, 1e-2
+"""Part of the inertia of all links that a drive moves by the rounding of their speeds alone; and the radians, or parts
+of the machine's length, by which another position is elsewhere."""
 INSTANTS = 400
 """Number of instants at which friction at rest is checked."""
 
@@ -177,9 +178,12 @@ class ContactState:
         c = compile_mechanism(self.m, self.m.schedule())
         inertia, length = c.forcing.inertia, c.layout.length
         heavy = float(np.abs(inertia.inertia).sum() + np.abs(inertia.mass).sum() * length**2)
-        arms = np.where(self.acting.turns, 1.0, length)[free]
-        for j in np.flatnonzero(np.abs(mass.diagonal()) * arms**2 <= NOTHING * heavy):
-            raise StoppedError(no_inertia(self.acting.names[free[j]], " in this position"))
+        arms = np.where(self.acting.turns, 1.0, length)
+        none = NOTHING * heavy / arms**2
+        for k in free[(np.abs(mass.diagonal()) <= none[free])]:
+            beside = float(self.equation(t, q + ASIDE * arms, u).mass[k, k])
+            where = " in this position" if abs(beside) > none[k] else ""
+            raise StoppedError(no_inertia(self.acting.names[k], where))
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
         """Effort that acts on a drive at rest, and the least and greatest with which it stays at rest."""

@@ -12,27 +12,25 @@ from dalembert.kernel.emit.integrator import record_size
 from dalembert.machine.motion.coded.steps import LEAST, between, first_step, state_sizes
 from dalembert.machine.motion.many.course.course_stops import CourseStops
 from dalembert.machine.motion.many.event_program import look
-from dalembert.machine.motion.occurrences import FOLLOWS
+from dalembert.machine.motion.occurrences import FOLLOWS, lowest
 
 ATTEMPTS, MOST = 16, 20_000
 """Attempts of steps at once, and those after which a design is lost."""
 
-LOOKED_AT = (0.0, 0.2, 0.38, 0.6, 0.81)
-"""Parts of a step at which what switches loads is looked at."""
+LOOKED_AT, TOUCHES = (0.0, 0.2, 0.38, 0.6, 0.81), 1e-12
+"""Parts of a step at which what switches loads is looked at; part of its largest value by which it only touches 0."""
 
 
 def _unclear(x: Array, v: Array) -> Flags:
     """Whether functions with values v at places x, both along the first axis, are below zero and come back, or may, or
     whether a value does not follow from those beside it."""
-    left, right = (v[1:-1] - v[:-2]) / (x[1:-1] - x[:-2]), (v[2:] - v[1:-1]) / (x[2:] - x[1:-1])
-    bend = (right - left) / (x[2:] - x[:-2])
-    off = np.abs(bend) * (x[1:-1] - x[:-2]) * (x[2:] - x[1:-1])
-    slope = left + bend * (x[1:-1] - x[:-2])
-    with np.errstate(all="ignore"):
-        least = np.where((left < 0) & (right > 0), v[1:-1] - slope**2 / (4 * bend), np.inf)
+    size = np.abs(v).max(axis=0)
+    part = (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
+    off = np.abs(v[1:-1] - v[:-2] - part * (v[2:] - v[:-2]))
+    least = lowest(np.stack([x[:-2], x[1:-1], x[2:]]), np.stack([v[:-2], v[1:-1], v[2:]]))
     back = (v[1:-1] < 0) & (v[2:] >= 0)
-    dips = (least < 0) & (v[2:] >= 0) & (v[:-2] >= 0)
-    return np.asarray((back | dips | (off > 2 * FOLLOWS * np.abs(v).max(axis=0))).any(axis=0))
+    dips = (least < -TOUCHES * size) & (v[2:] >= 0) & (v[1:-1] >= 0) & (v[:-2] >= 0)
+    return np.asarray((back | dips | (off > 2 * FOLLOWS * size)).any(axis=0))
 
 
 class CourseSteps(CourseStops):
