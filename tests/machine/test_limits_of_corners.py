@@ -206,7 +206,7 @@ class Corners(CornerState):
     def __init__(self, *switching: Switch) -> None:
         self.d, self.switching, self.told = 1, [*switching], []  # type: ignore[var-annotated]
         self.acting: Any = SimpleNamespace(free=np.array([True]))
-        self.lengths = np.array([1.0])
+        self.lengths, self.gone_over = np.array([1.0]), math.nan
 
     def pace(self, t: float, y: Any) -> float:
         return 4.0
@@ -270,6 +270,32 @@ def test_a_switch_goes_over_to_its_other_side_with_its_words() -> None:
     assert [x.passed for x in s.switching] == [[1.0], [2.0]]
     sentence = "load 'F' is beyond the end of its table from here on"
     assert s.told == [(2.0, "stop", "it is met"), (2.0, "table end", sentence)]
+
+
+def test_switches_within_each_other_go_over_together() -> None:
+    """max(0, q sign(q)) just below 0: the jump inside goes over, by which the maximum is where it was; in either order,
+    and also where only one of them is met."""
+    for order in ([0, 1], [1, 0], [0]):
+        inner = switch(lambda t, y: y[0], 1.0)
+        outer = switch(lambda t, y, inner=inner: -y[0] * inner.side(), -1.0)
+        s = Corners(inner, outer)
+        y = np.array([-1e-9, -3.0])
+        guards = s.corner_guards()
+        for k in order:
+            s.go_over(guards[k], 1.0, y)
+        assert [x.side() for x in s.switching] == [-1.0, -1.0]
+        assert len(inner.passed) == 1
+    jump = switch(lambda t, y: y[0], 1.0)
+    above = switch(lambda t, y: -jump.side(), -1.0)  # max(0, sign(q))
+    table = switch(lambda t, y: -jump.side(), -1.0, nests=False)
+    s = Corners(jump, above, table)
+    s.go_over(s.corner_guards()[0], 1.0, np.array([-1e-9, -3.0]))
+    assert [x.side() for x in s.switching] == [-1.0, 1.0, -1.0]
+    level = switch(lambda t, y: jump.side() + 1.0, 1.0)  # sign(sign(q) + 1)
+    jump.flip(1.0)
+    s = Corners(jump, level)
+    s.go_over(s.corner_guards()[0], 1.0, np.array([-1e-9, -3.0]))
+    assert [x.side() for x in s.switching] == [-1.0, 0.0]
 
 
 @pytest.mark.parametrize(("sense", "holds"), [(1.0, True), (-1.0, False)])

@@ -56,6 +56,7 @@ class CornerState(ElasticState):
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         super().__init__(m, actuation)
         self.switching: list[Switch] = []
+        self.gone_over = np.nan  # when something last did
         loads = [n for n, x in m.loads.items() if any(map(has_corners, getattr(x, "varying", ())))]
         self._loads = f"load {' or '.join(map(repr, loads))}"
 
@@ -169,6 +170,9 @@ class CornerState(ElasticState):
     def go_over(self, g: Guard, t: float, y: Array) -> None:
         """Take a switch to its other side; StoppedError where its jump pushes back at once."""
         switch = self.switching[g.which]
+        if t == self.gone_over and switch.value(t, y) * g.side > 0:
+            return  # what it depends on has gone over at this instant too: it is where it was
+        self.gone_over = t
         self._flip(switch, -g.side, t, y)
         faster = y.copy()
         faster[self.d : 2 * self.d] *= 1 + AHEAD
