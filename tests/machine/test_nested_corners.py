@@ -109,16 +109,16 @@ def test_corners_within_corners_take_their_sides_together() -> None:
 def test_a_dip_between_instants_is_looked_for(shift: float) -> None:
     """A parabola that is just below zero, or just not, between the instants looked at; and fast waves."""
     for place in np.linspace(0.05, 0.95, 13):
-        found = first_beyond(lambda t, place=place: (t - place) ** 2 + shift**3, 0.0, 1.0)
+        found, _ = first_beyond(lambda t, place=place: (t - place) ** 2 + shift**3, 0.0, 1.0)
         if shift < 0:
             assert abs(found - place) < 1e-4
         else:
             assert found == math.inf
-    assert first_beyond(lambda t: 1.0 + shift + math.cos(300 * t), 0.0, 1.0) == (
+    assert first_beyond(lambda t: 1.0 + shift + math.cos(300 * t), 0.0, 1.0)[0] == (
         pytest.approx(math.pi / 300, rel=0.2) if shift < 0 else math.inf
     )
-    assert first_beyond(lambda t: -1.0, 2.0, 3.0) > 2.0  # the start is known
-    assert first_beyond(lambda t: 0.0, 2.0, 3.0) == math.inf
+    assert first_beyond(lambda t: -1.0, 2.0, 3.0)[0] > 2.0  # the start is known
+    assert first_beyond(lambda t: 0.0, 2.0, 3.0) == (math.inf, True)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from dalembert.answer.column import Scale
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import SLIDE, TURN
@@ -89,7 +89,8 @@ class Guard:
     A side of 0 is not known yet. ``trend``: how it went on, times its side, at the end of the last step; ``turned``: an
     instant within a step at which it is beyond zero, to come back before the step ends. ``column``: where machine code
     has the value, less ``level``: a number of the state, or behind these one that is watched; -1 where it has not.
-    ``least``: amount by which it is surely beyond zero.
+    ``least``: amount by which it is surely beyond zero. ``looked``: the longest step within which it has been looked at,
+    and followed; ``seen``: times and values, times its side, at the ends of the last two.
     """
 
     kind: str
@@ -101,11 +102,24 @@ class Guard:
     column: int = -1
     level: float = 0.0
     least: float = 0.0
+    looked: float = 0.0
+    seen: tuple[tuple[float, float], ...] = ()
 
     @property
     def anywhere(self) -> bool:
         """True if it may pass zero more than once within a step, as steps are not chosen by its value."""
         return self.column < 0 and self.kind in ("corner", "condition")
+
+    def look_within(self, dense: Callable[[], Callable[[float], Array]], before: float, t: float, y: Array) -> None:
+        """Find where it is first beyond zero within a step up to a state; its states, ``dense``, are made if needed."""
+        now = (t, self.value(t, y) * self.side)
+        ends = np.array([*self.seen[-2:], now]).T
+        self.seen, self.turned = (*self.seen[-1:], now), inf
+        if t - before <= LONGER * self.looked and ends.shape[1] == 3 and follows(*ends):
+            return
+        state = dense()
+        self.turned, at_once = first_beyond(lambda x: self.value(x, state(x)) * self.side, before, t)
+        self.looked = max(self.looked, t - before) if at_once else 0.0
 
     @property
     def known(self) -> bool:
@@ -117,9 +131,10 @@ class Guard:
         return abs(self.value(t, y)) <= (self.least or 1e-12 * max(float(abs(y[: 2 * d]).max()), 1.0))
 
 
-UNEVEN, FOLLOWS, FINER = 0.38, 0.1, 12
+UNEVEN, FOLLOWS, FINER, LONGER = 0.38, 0.1, 12, 1.5
 """Where between two instants of a step another one is looked at; part of the largest value by which a value may differ
-from the straight line between those beside it; and how often more are looked at."""
+from the straight line between those beside it; how often more are looked at; and how many times a step may be longer
+than those looked into so far, if its end follows from the ends before."""
 
 
 def lowest(x: Array, v: Array) -> Array:
@@ -138,20 +153,33 @@ def lowest(x: Array, v: Array) -> Array:
         return np.where(inside, v[1] - slope**2 / (4 * bend), inf)
 
 
-def first_beyond(value: Callable[[float], float], low: float, high: float) -> float:
-    """The first instant found after ``low``, up to ``high``, at which a function is below zero; infinite where none is.
+def follows(x: Array, v: Array) -> Flags:
+    """Whether values v (3, ...) of functions at places x (3, ...) follow from each other, and stay clear of zero between:
+    so that nothing happens there that they do not show.
 
-    The function is looked at ever finer until its values follow from those beside them, and where it has a minimum
-    between two of them.
+    >>> x = np.array([0.0, 1.0, 2.0])
+    >>> [bool(follows(x, np.array(v))) for v in ([3.0, 2.0, 1.1], [3.0, 2.0, 4.0], [3.0, 0.1, 0.1])]
+    [True, False, False]
+    """
+    off = np.abs(v[1] - v[0] - (x[1] - x[0]) / (x[2] - x[0]) * (v[2] - v[0]))
+    clear = lowest(x, v) > FOLLOWS * (v.max(axis=0) - v.min(axis=0))
+    return np.asarray(clear & (off <= FOLLOWS * np.abs(v).max(axis=0)))
 
-    >>> first_beyond(lambda t: np.cos(40 * t), 0.0, 3.0) < 3 * np.pi / 80
+
+def first_beyond(value: Callable[[float], float], low: float, high: float) -> tuple[float, bool]:
+    """The first instant found after ``low``, up to ``high``, at which a function is below zero, infinite where none is;
+    and whether its values followed from those beside them at once.
+
+    The function is looked at ever finer until they do, and where it has a minimum between two of them.
+
+    >>> first_beyond(lambda t: np.cos(40 * t), 0.0, 3.0)[0] < 3 * np.pi / 80
     True
     >>> first_beyond(lambda t: 1.001 + np.cos(40 * t), 0.0, 3.0)
-    inf
+    (inf, False)
     """
     t = np.linspace(low, high, 5)
     v = np.array([value(x) for x in t.tolist()])
-    for _ in range(FINER):
+    for finer in range(FINER):
         new = t[:-1] + UNEVEN * np.diff(t)
         between = np.array([value(x) for x in new.tolist()])
         off = np.abs(between - v[:-1] - UNEVEN * np.diff(v))
@@ -161,14 +189,14 @@ def first_beyond(value: Callable[[float], float], low: float, high: float) -> fl
             break
     for k in range(1, len(t)):
         if v[k] < 0:
-            return float(t[k])
+            return float(t[k]), finer == 0
         if k + 1 < len(t):
             near, size = slice(k - 1, k + 2), float(np.ptp(v[k - 1 : k + 2]))
             if float(lowest(t[near], v[near])) < FOLLOWS * size:
                 least = minimize_scalar(value, bounds=(t[k - 1], t[k + 1]), method="bounded")
                 if least.fun < 0:
-                    return float(least.x)
-    return inf
+                    return float(least.x), finer == 0
+    return inf, finer == 0
 
 
 ROUNDING = 1e-9

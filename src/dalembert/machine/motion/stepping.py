@@ -32,7 +32,6 @@ from dalembert.machine.motion.occurrences import (
     Guard,
     Value,
     Words,
-    first_beyond,
     less,
 )
 from dalembert.machine.motion.rest.standstill import EVEN
@@ -286,10 +285,9 @@ class StepState(CodedState):
     def _look_within(self, guards: Sequence[Guard], solver: Steps | MachineSteps, before: float) -> None:
         """Where guards that may pass zero anywhere within the last step, whose length does not follow their values, are
         first beyond it."""
-        some = [g for g in guards if g.anywhere and g.side]
-        dense = solver.dense_output() if some else None
-        for g in some:
-            g.turned = first_beyond(lambda t, g=g: g.value(t, dense(t)) * g.side, before, solver.t)
+        for g in guards:
+            if g.anywhere and g.side:
+                g.look_within(solver.dense_output, before, solver.t, solver.y)
 
     def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
         """True if a corner, a condition or a tooth is passed within the last step, which ends on its first side;

@@ -170,7 +170,7 @@ class ContactState:
         q, u, free = y[: self.d], y[self.d : 2 * self.d], np.flatnonzero(self.acting.free)
         mass = self.equation(t, q, u).mass + np.diag(self.acting.take_ways(self.toward))
         mass = mass[np.ix_(free, free)]
-        if not np.isfinite(mass).all():
+        if not len(free) or not np.isfinite(mass).all():
             return
         least, k = lightest(mass)
         if self.equation.dry and least < WEIGHTLESS:

@@ -58,7 +58,7 @@ class CourseRest(CourseState):
 
     def find_nested_sides(self, k: Ints, before: Array) -> None:
         """Sides of what jumps with those that have gone over, of designs with values (K, V) before that."""
-        if not len(k):
+        if not len(k) or len(self.machine.sides) < 2:
             return
         was = self._switching_ahead(k, before)
         for _ in self.machine.sides:

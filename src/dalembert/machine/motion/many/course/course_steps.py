@@ -12,12 +12,12 @@ from dalembert.kernel.emit.integrator import record_size
 from dalembert.machine.motion.coded.steps import LEAST, between, first_step, state_sizes
 from dalembert.machine.motion.many.course.course_stops import CourseStops
 from dalembert.machine.motion.many.event_program import look
-from dalembert.machine.motion.occurrences import FOLLOWS, lowest
+from dalembert.machine.motion.occurrences import FOLLOWS, LONGER, follows, lowest
 
 ATTEMPTS, MOST = 16, 20_000
 """Attempts of steps at once, and those after which a design is lost."""
 
-LOOKED_AT, TOUCHES = (0.0, 0.2, 0.38, 0.6, 0.81), 1e-12
+LOOKED_AT, TOUCHES = (0.2, 0.38, 0.6, 0.81), 1e-12
 """Parts of a step at which what switches loads is looked at; part of its largest value by which it only touches 0."""
 
 
@@ -46,7 +46,7 @@ class CourseSteps(CourseStops):
         fine = np.isfinite(rates).all(axis=1)
         self.lose(k[~fine])
         self._see_margins(k, watched)
-        value = self.columns(self.y[k], watched, self.t[k]) - self.levels[k]
+        value = self.now[k] = self.columns(self.y[k], watched, self.t[k]) - self.levels[k]
         large = np.maximum(np.abs(self.y[k]).max(axis=1, keepdims=True), 1.0)
         least = self._least(k)
         small = np.abs(value) <= np.where(least > 0, least, 1e-12 * large)
@@ -131,6 +131,7 @@ class CourseSteps(CourseStops):
         last = np.where(cut, too_long, np.where(meets, which, ATTEMPTS))[:, None]
         kept, seen = (taken & (np.arange(ATTEMPTS) < last + more) for more in (0, 1))
         self._store(k, records, kept)
+        self._keep_past(k, records, value, kept, meets)
         self.longest[k] = np.maximum(self.longest[k], np.where(seen, records[..., 1], 0.0).max(axis=1))
         speeds = np.where(kept[..., None], np.abs(after[..., d : 2 * d]), 0.0).max(axis=1)
         self.fastest[k] = np.maximum(self.fastest[k], speeds)
@@ -155,19 +156,57 @@ class CourseSteps(CourseStops):
         that passes zero and comes back, or may, or does not follow from its values beside."""
         corners = self.machine.guards.those("corner")
         out: Flags = np.zeros(taken.shape, bool)
-        design, step = np.nonzero(taken)
-        if len(corners) and len(design):
-            rows, of = records[design, step], k[design]
-            size, values = record_size(self.machine.code.steps.n), []
-            for part in LOOKED_AT:
-                t = rows[:, 0] + part * rows[:, 1]
-                y = between(rows[:, :size], t)
-                watched = look(self.machine.code.steps, self.values[of], t, y)[1]
-                values.append(self.columns(y, watched, t)[:, corners] - self.levels[of][:, corners])
-            values.append(ends[design, step][:, corners])
-            v = np.stack(values) * self.side[of][:, corners]
-            out[design, step] = _unclear(np.array([*LOOKED_AT, 1.0])[:, None, None], v).any(axis=-1)
+        if len(corners):
+            both = np.stack([self.past[k][:, corners], self.now[k][:, corners]], axis=1)
+            v = np.concatenate([both, ends[..., corners]], axis=1)
+            v *= self.side[k][:, None, corners]
+            h = np.where(taken, records[..., 1], 0.0)
+            t = np.column_stack([self.past_time[k], self.t[k], records[..., 0] + h])
+            end = np.broadcast_to(np.arange(2, ATTEMPTS + 2), taken.shape)
+            before = np.maximum.accumulate(np.where(taken, end, 1), axis=1)
+            start = np.concatenate([np.ones_like(end[:, :1]), before[:, :-1]], axis=1)
+            every = np.column_stack([np.zeros_like(end[:, :2]), start])  # place of the state before each
+            places = (np.take_along_axis(every, start, axis=1), start, end)
+            triples = (
+                np.stack([np.take_along_axis(x, j[..., None], axis=1) for j in places])
+                for x in (t[..., None], v)
+            )
+            seen = follows(*triples).all(axis=-1) & (h <= LONGER * self.looked[k, None])
+            design, step = np.nonzero(taken & ~seen)
+            if len(design):
+                within = self._within(k[design], records[design, step], corners)
+                within *= self.side[k[design]][:, corners]
+                values = np.concatenate([v[design, start[design, step]][None], within, v[design, step + 2][None]])
+                unclear = _unclear(np.array([0.0, *LOOKED_AT, 1.0])[:, None, None], values).any(axis=-1)
+                out[design, step] = unclear
+                np.maximum.at(self.looked, k[design], np.where(unclear, 0.0, h[design, step]))
+                self.looked[k[design[unclear]]] = 0.0
         return np.asarray(out.any(axis=1)), out.argmax(axis=1)
+
+    def _keep_past(self, k: Ints, records: Array, value: Array, kept: Flags, meets: Flags) -> None:
+        """Keep the guards' values at the last instant, and at the one before it, with its time: behind an event, which
+        is the last instant then, those of the last step."""
+        each, count = np.arange(len(k)), kept.sum(axis=1)
+        last = ATTEMPTS - 1 - kept[:, ::-1].argmax(axis=1)
+        others = kept.copy()
+        others[each, last] = False
+        before = np.where(meets, last, ATTEMPTS - 1 - others[:, ::-1].argmax(axis=1))
+        inside = (count > np.where(meets, 0, 1))[:, None]
+        moved = (count > 0) | meets
+        past = np.where(inside, value[each, before], self.now[k])
+        time = np.where(inside[:, 0], (records[..., 0] + records[..., 1])[each, before], self.t[k])
+        self.past[k[moved]], self.past_time[k[moved]] = past[moved], time[moved]
+        self.now[k[moved]] = value[each, last][moved]
+
+    def _within(self, k: Ints, rows: Array, guards: Ints) -> Array:
+        """Values (W, K, G) of guards at instants within steps."""
+        size, parts = record_size(self.machine.code.steps.n), len(LOOKED_AT)
+        t = rows[:, 0] + np.array(LOOKED_AT)[:, None] * rows[:, 1]
+        t, rows, of = t.ravel(), np.tile(rows[:, :size], (parts, 1)), np.tile(k, parts)
+        y = between(rows, t)
+        watched = look(self.machine.code.steps, self.values[of], t, y)[1]
+        out = self.columns(y, watched, t)[:, guards] - self.levels[of][:, guards]
+        return np.asarray(out.reshape(parts, len(k), -1))
 
     def _meet(self, k: Ints, records: Array, crossed: Flags) -> None:
         """Go to the first events of designs within steps, and on behind them."""
