@@ -41,6 +41,7 @@ from tests.kernel.comparing import changed, difference, every_number
 
 import dalembert as da
 from dalembert.analysis.batch.tracing.symbolic_model import with_numbers
+from dalembert.analysis.output.rounding import sizes
 from dalembert.errors import FORCED, NUMBERED, DalembertError
 
 BUILD = ROOT / "build" / "attack"
@@ -368,6 +369,8 @@ def quantities(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
             continue
         mine = mine.reshape(theirs.shape)
         size = np.nanmax(np.abs(theirs), initial=1e-4)
+        if "acceleration" in name:  # beside the squares of the speeds
+            size = max(size, 1e-6 * np.max(sizes(r)["angular_acceleration"], initial=0.0))
         same = np.isnan(mine) == np.isnan(theirs)
         if not same.all() or np.nanmax(np.abs(mine - theirs), initial=0) > NEAR * size:
             yield f"sweep of {vary}: {name} is not as of the kernel"
