@@ -388,9 +388,12 @@ def quantities(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
 
 def motions(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
     """Motions under forces: the energy balance, the forces of the computed motion, and a compiled motion."""
+
     def begun() -> Any:
         s = da.simulate(m, "0.05 s", count=11, steps=400)
-        return s if s.status != "stopped" else None  # at a dead centre its last instant is uncertain, and said to be
+        return (
+            s if s.status != "stopped" else None
+        )  # at a dead centre its last instant is uncertain, and said to be
 
     yield from refusing("simulate", begun)
     start: dict[str, Any] = {}

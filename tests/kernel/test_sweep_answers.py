@@ -257,7 +257,11 @@ drives: {O: {position: 30 deg, speed: 5 rad/s}}
     m = da.loads(text)
     paths = ["joints.S.damping", "joints.S.damping.0", "joints.S.damping.1"]
     swept = [da.sweep(m, path, [0.5, 8.0], outputs="effort.O") for path in paths]
-    assert [s.labels[path].unit for s, path in zip(swept, paths, strict=True)] == ["N*s/m", "N*s/m", "N*m*s/rad"]
+    assert [s.labels[path].unit for s, path in zip(swept, paths, strict=True)] == [
+        "N*s/m",
+        "N*s/m",
+        "N*m*s/rad",
+    ]
     alone, slide, turn = (s["effort.O"].ravel() for s in swept)
     assert not np.allclose(slide, turn)
     k = da.compile(m, ["joints.S.damping"])

@@ -144,7 +144,11 @@ def test_what_may_pass_zero_anywhere_is_looked_at_within_a_step(kind: str) -> No
     s: Any = Stepping()
     dense = lambda t: np.array([t])  # noqa: E731
     solver = SimpleNamespace(t=3.0, y=np.array([3.0]), dense_output=lambda: dense)
-    values = (lambda x: (x - 2.2) ** 2 - 0.01, lambda x: (x - 2.2) ** 2 + 0.01, lambda x: math.cos(40 * (x - 1)))
+    values = (
+        lambda x: (x - 2.2) ** 2 - 0.01,
+        lambda x: (x - 2.2) ** 2 + 0.01,
+        lambda x: math.cos(40 * (x - 1)),
+    )
     guards = [Guard(kind, k, lambda t, y, f=f: float(f(y[0])), 1.0) for k, f in enumerate(values)]
     plain = Guard(kind, 3, lambda t, y: float(y[0] - 2), -1.0, column=0)
     unknown = Guard(kind, 4, lambda t, y: -1.0, 0.0)

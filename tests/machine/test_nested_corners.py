@@ -64,7 +64,11 @@ LAWS: list[tuple[str, Callable[[float], float], list[float]]] = [
     ("-6*max(0, sign(sin(3*O)))", lambda q: -6 * max(0, sign(math.sin(3 * q))), ALONG[::2]),
     ("-6*sign(sign(O) + 1)", lambda q: -6 * sign(sign(q) + 1), [0.0]),
     ("-6*max(sign(O - 1), sign(O - 2))", lambda q: -6 * max(sign(q - 1), sign(q - 2)), [1.0, 2.0]),
-    ("-6*max(0, sign(O)*min(1, sign(O + 2)))", lambda q: -6 * max(0, sign(q) * min(1, sign(q + 2))), [0.0, -2.0]),
+    (
+        "-6*max(0, sign(O)*min(1, sign(O + 2)))",
+        lambda q: -6 * max(0, sign(q) * min(1, sign(q + 2))),
+        [0.0, -2.0],
+    ),
 ]
 
 

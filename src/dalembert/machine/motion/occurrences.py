@@ -89,8 +89,8 @@ class Guard:
     A side of 0 is not known yet. ``trend``: how it went on, times its side, at the end of the last step; ``turned``: an
     instant within a step at which it is beyond zero, to come back before the step ends. ``column``: where machine code
     has the value, less ``level``: a number of the state, or behind these one that is watched; -1 where it has not.
-    ``least``: amount by which it is surely beyond zero. ``looked``: the longest step within which it has been looked at,
-    and followed; ``seen``: times and values, times its side, at the ends of the last two.
+    ``least``: amount by which it is surely beyond zero. ``looked``: the longest step within which it has been looked
+    at, and followed; ``seen``: times and values, times its side, at the ends of the last two.
     """
 
     kind: str
@@ -110,7 +110,9 @@ class Guard:
         """True if it may pass zero more than once within a step, as steps are not chosen by its value."""
         return self.column < 0 and self.kind in ("corner", "condition")
 
-    def look_within(self, dense: Callable[[], Callable[[float], Array]], before: float, t: float, y: Array) -> None:
+    def look_within(
+        self, dense: Callable[[], Callable[[float], Array]], before: float, t: float, y: Array
+    ) -> None:
         """Find where it is first beyond zero within a step up to a state; its states, ``dense``, are made if needed."""
         now = (t, self.value(t, y) * self.side)
         ends = np.array([*self.seen[-2:], now]).T
@@ -154,8 +156,8 @@ def lowest(x: Array, v: Array) -> Array:
 
 
 def follows(x: Array, v: Array) -> Flags:
-    """Whether values v (3, ...) of functions at places x (3, ...) follow from each other, and stay clear of zero between:
-    so that nothing happens there that they do not show.
+    """Whether values v (3, ...) of functions at places x (3, ...) follow from each other and stay clear of zero, so that
+    nothing happens between them that they do not show.
 
     >>> x = np.array([0.0, 1.0, 2.0])
     >>> [bool(follows(x, np.array(v))) for v in ([3.0, 2.0, 1.1], [3.0, 2.0, 4.0], [3.0, 0.1, 0.1])]
@@ -179,7 +181,8 @@ def first_beyond(value: Callable[[float], float], low: float, high: float) -> tu
     """
     t = np.linspace(low, high, 5)
     v = np.array([value(x) for x in t.tolist()])
-    for finer in range(FINER):
+    finer = 0
+    for finer in range(FINER):  # noqa: B007
         new = t[:-1] + UNEVEN * np.diff(t)
         between = np.array([value(x) for x in new.tolist()])
         off = np.abs(between - v[:-1] - UNEVEN * np.diff(v))

@@ -74,7 +74,9 @@ class CourseRest(CourseState):
         rates, h = look(machine.code.steps, self.values[k], self.t[k], self.y[k])[0], SOON * machine.end
         d, later = machine.drives, self.y[k] + h * rates
         later[:, :d] += h**2 / 2 * rates[:, d : 2 * d]
-        return look(machine.code.steps, values, self.t[k] + h, later)[1][:, place : place + len(machine.sides)]
+        return look(machine.code.steps, values, self.t[k] + h, later)[1][
+            :, place : place + len(machine.sides)
+        ]
 
     def _start_on_stops(self, k: Ints) -> Flags:
         """Finds designs that begin in a clutch that holds; those on a stop, or against a clutch, are left alone."""

@@ -176,7 +176,9 @@ class CourseSteps(CourseStops):
             if len(design):
                 within = self._within(k[design], records[design, step], corners)
                 within *= self.side[k[design]][:, corners]
-                values = np.concatenate([v[design, start[design, step]][None], within, v[design, step + 2][None]])
+                values = np.concatenate(
+                    [v[design, start[design, step]][None], within, v[design, step + 2][None]]
+                )
                 unclear = _unclear(np.array([0.0, *LOOKED_AT, 1.0])[:, None, None], values).any(axis=-1)
                 out[design, step] = unclear
                 np.maximum.at(self.looked, k[design], np.where(unclear, 0.0, h[design, step]))
