@@ -245,3 +245,34 @@ def test_an_unknown_load_without_power_at_rest_is_no_state_of_rest() -> None:
     r = da.statics(m)
     assert set(r.status) == {"at_rest"}
     assert da.compile(m, static=True)().status[0].tolist() == list(r.status)
+
+
+@pytest.mark.parametrize("reduce", [None, "peak"])
+def test_positions_to_which_no_motion_leads_are_those_of_the_analysis(reduce: str | None) -> None:
+    """A yoke whose slot turns with the crank: it goes to infinity at 90 deg, and closes again behind."""
+    m = da.loads("""
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}}
+  yoke: {points: {S: [0, 0]}, mass: 2}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  G: {type: slider, links: [ground, yoke], at: [O, S]}
+  A: {type: slot, links: [crank, yoke], at: [A, S], direction: 90 deg}
+drives: {O: {position: {from: 0 deg, to: 160 deg, count: 9}}}
+loads: {P: {type: force, on: yoke, at: S, value: [-10, 0]}}
+""")
+    r = da.statics(m)
+    assert set(r.status) == {"ok", "not_assembled"}
+    k = da.compile(m, ["links.crank.points.A.0"], ["effort.O"], reduce)
+    b, swept = k([[0.1], [0.12]]), da.sweep(m, "links.crank.points.A.0", [0.1, 0.12], outputs="effort.O")
+    statuses = [list(r.status)] * 2 if reduce is None else ["not_assembled"] * 2
+    assert b.status.tolist() == statuses
+    mine = np.asarray(b["effort.O"]).reshape(2, -1)
+    theirs = np.asarray(swept["effort.O"]).reshape(2, -1)
+    if reduce is None:
+        assert mine == pytest.approx(theirs, rel=1e-9, nan_ok=True)
+        assert np.isfinite(mine).any()
+    few = m.with_values({"drives.O.position": ["0 deg", "40 deg", "60 deg"]})  # where it closes throughout
+    assert (da.compile(few, ["links.crank.points.A.0"])([[0.1], [0.12]]).status == "ok").all()
+    assert da.compile(few)().redone == 0

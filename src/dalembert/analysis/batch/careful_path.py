@@ -78,6 +78,18 @@ def redone(
             rates[name][d, here] = rate.reshape(rates[name][d, here].shape)
 
 
+def breaks(k: Kernel) -> bool:
+    """True if by the file's numbers a position closes to which no motion leads from the others: then the motion of
+    each design decides."""
+    course = k.trace.course
+    lost = ~np.isfinite(course.pose.point).all(axis=(1, 2))
+    if not lost.any():
+        return False
+    single = k if k.reduce is None else replace(k, reduce=None, derivatives=False)
+    code = single.runner("cpu", k.nominal[None], course, None, None, None)[0][0]
+    return bool(np.isin(code, NUMBERED)[lost].any())
+
+
 def reduce_design(
     k: Kernel,
     d: int,

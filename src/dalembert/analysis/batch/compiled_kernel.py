@@ -20,6 +20,7 @@ from dalembert.analysis.batch.batch_result import (
     mark_overflow,
     not_finite,
 )
+from dalembert.analysis.batch.careful_path import breaks, redone
 from dalembert.analysis.batch.checked_input import (
     check_positions,
     design_values,
@@ -347,16 +348,18 @@ class Kernel:
         return casadi_function(self, name)
 
     @cached_property
-    def _deciding(self) -> Ints:
+    def _deciding(self) -> Ints | None:
         """Numbers that decide the branch: of `assembly`, and of the geometry where the motion passes change points."""
         flips = self.trace.catalogue.traced.flips
-        return np.flatnonzero([chooses_motion(self.mechanism, path, flips) for path in self.numbers])
+        chosen = [chooses_motion(self.mechanism, path, flips) for path in self.numbers]
+        return None if breaks(self) else np.flatnonzero(chosen)
 
     def may_change_branch(self, values: Array) -> Flags | None:
         """Designs whose motion may be another than the file's, each left to the general executor; None for none."""
-        if not self._deciding.size:
-            return None
-        return np.asarray((values != self._nominal)[:, self._deciding].any(axis=1))
+        if self._deciding is None:
+            return np.ones(len(values), bool)
+        other = (values != self._nominal)[:, self._deciding].any(axis=1)
+        return np.asarray(other) if self._deciding.size else None
 
     def _targets(
         self, out: Array | Mapping[str, Array] | None, designs: int, positions: int
@@ -376,13 +379,11 @@ class Kernel:
 
     def _settle(self, values: Array, course: PositionPath, sides: Sides, redo: bool) -> int:
         """Number of designs for which the general executor was used; numbers that are not solved are removed."""
-        from dalembert.analysis.batch.careful_path import redone
-
         code, arrays, rates = sides.code, sides.arrays, sides.rates
         if redo:
-            moves = course.schedule.moves if code.ndim > 1 else course.schedule.moves.any()
-            moves = moves | bool(course.counted.unknown_loads)  # which may have no power
-            code[(code == CODES.index("at_rest")) & moves] = CODES.index("undecided")
+            moves = course.schedule.moves | bool(course.counted.unknown_loads)  # which may have no power
+            still = (code == CODES.index("at_rest")) & (moves if code.ndim > 1 else moves.any())
+            code[still] = CODES.index("undecided")
         if self.reduce is not None:  # a power or a sum may overflow where no value does
             code[not_finite(code, arrays) & among(code, NUMBERED)] = CODES.index("undecided")
         undecided = code == CODES.index("undecided")

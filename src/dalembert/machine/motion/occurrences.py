@@ -156,8 +156,8 @@ def lowest(x: Array, v: Array) -> Array:
 
 
 def follows(x: Array, v: Array) -> Flags:
-    """Whether values v (3, ...) of functions at places x (3, ...) follow from each other and stay clear of zero, so that
-    nothing happens between them that they do not show.
+    """Whether values v (3, ...) of functions at places x (3, ...) follow from each other and stay clear of zero, so
+    that nothing happens between them that they do not show.
 
     >>> x = np.array([0.0, 1.0, 2.0])
     >>> [bool(follows(x, np.array(v))) for v in ([3.0, 2.0, 1.1], [3.0, 2.0, 4.0], [3.0, 0.1, 0.1])]
