@@ -44,6 +44,9 @@ STEPS = 40
 """Newton's steps for a pose that has no closed form."""
 NEAR = 1e-7
 """Largest distance of a state's pose from the one at which Newton's steps began, for which they have converged."""
+STRIDE, STRIDES = 2.0, 256
+"""Radians or metres that a pose may move by from one state to the next, so that whole turns are counted right; beyond
+that it is followed in parts, at most so many."""
 WEIGHTLESS = 1e-12
 """Part of the greatest inertia that is rounding."""
 DEAD_CENTRE = (
@@ -111,13 +114,19 @@ class LastPose:
     at: Array | None = None
     anchor: tuple[Pose, Array] | None = None
 
-    def start(self, q: Array) -> None:
-        """Begin a state from the nearer one of the last state and the anchor."""
-        if self.anchor is not None and self.at is not None:
+    def start(self, q: Array) -> Array | None:
+        """Begin a state from the nearer one of the last state and the anchor; the drives' positions there, if known."""
+        from_ = self.at
+        if self.anchor is not None and from_ is not None:
             pose, at = self.anchor
-            if np.abs(q - at).max() <= np.abs(q - self.at).max():
-                self.pose = pose
+            if np.abs(q - at).max() <= np.abs(q - from_).max():
+                self.pose, from_ = pose, at
         self.at = q.copy()
+        return from_
+
+    def moved(self, before: Pose) -> float:
+        """How far it is from another pose, in m or rad."""
+        return max(float(np.abs(x - y[:1]).max(initial=0.0)) for x, y in zip(self.pose, before, strict=True))
 
     def follow(self, values: Array) -> float:
         """Take another pose, all its numbers in a row; how far it is, in m or rad."""
@@ -128,9 +137,8 @@ class LastPose:
             return 0.0
         if self.layout.algebra.d == 3:
             new = recount_turns(self.layout, new)
-        far = max(float(np.abs(x - y[:1]).max(initial=0.0)) for x, y in zip(new, self.pose, strict=True))
-        self.pose = new
-        return far
+        before, self.pose = self.pose, new
+        return self.moved(before)
 
 
 class Equation:
@@ -207,23 +215,35 @@ class Equation:
 
     def __call__(self, t: float, q: Array, u: Array) -> Terms:
         """The terms at a state, at no accelerations and without dry friction."""
-        d, state = len(u), (*q, t)
-        if self.known:
-            self.known.start(q)
-        pose: Any = self.known and self.known.pose
-        self.values[self.rates] = [*u, *np.zeros(d)]
-        for _ in range(STEPS):
-            along = [f(t, q, self.known) if callable(f) else state[f] for f in self.channels]
-            out = self.run(along)
-            if not self.known or self.known.follow(out[self.ends[-1] :]) <= NEAR or not self.by_newton:
-                break
-        terms = self.terms(out[: self.ends[-1]])
-        if self.known and not np.isfinite(terms.effort).all():
+        if not self.known:
+            return self._at(t, q, u)
+        from_ = self.known.start(q)
+        pose = self.known.pose
+        terms, parts = self._at(t, q, u), 2
+        while from_ is not None and self.known.moved(pose) > STRIDE and parts <= STRIDES:
+            self.known.pose, far = pose, 0.0
+            for x in from_ + np.arange(1, parts + 1)[:, None] / parts * (q - from_):
+                before = self.known.pose
+                terms = self._at(t, x, u)
+                far = max(far, self.known.moved(before))
+            parts = 2 * parts if far > STRIDE else STRIDES + 1
+        if not np.isfinite(terms.effort).all():
             self.known.pose = pose  # no state goes on from where the loops do not close
             if self.known.anchor is not None and self.known.anchor[0] is not pose:
                 self.known.pose, self.known.at = self.known.anchor
                 return self(t, q, u)
         return terms
+
+    def _at(self, t: float, q: Array, u: Array) -> Terms:
+        """The terms at a state, whose pose follows from the last one."""
+        self.values[self.rates] = [*u, *np.zeros(len(u))]
+        state = (*q, t)
+        for _ in range(STEPS):
+            along = [f(t, q, self.known) if callable(f) else state[f] for f in self.channels]
+            out = self.run(along)
+            if not self.known or self.known.follow(out[self.ends[-1] :]) <= NEAR or not self.by_newton:
+                break
+        return self.terms(out[: self.ends[-1]])
 
     def pushed(self, forces: Mapping[int, float], t: float, q: Array, u: Array) -> Terms:
         """The terms with forces in the freedoms of joints, by their place among those with stops."""
