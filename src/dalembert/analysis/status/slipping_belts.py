@@ -30,8 +30,8 @@ SLACK = (
     "The slack strand of {kind} {joint} would have to push with {force}{arc}. "
     "Raise its tension, or lower the load."
 )
-ROUNDING = 1e-9
-"""Part of the tight strand's tension that the slack one may lack."""
+ROUNDING, PART = 1e-9, 1e-12
+"""Part of the tight strand's tension that the slack one may lack; part of the greatest force that is none."""
 
 
 class Strands(NamedTuple):
@@ -88,7 +88,9 @@ def belt_checks(c: Compiled, pose: Pose, twist: Array, f: SolvedForces) -> list[
     for k, belt in enumerate(belts_of(c.mechanism).values()):
         has = grip(c.mechanism, belt)
         if has is None:
-            loose = s.slack[:, k] - s.centrifugal[:, k] < -ROUNDING * np.abs(s.tight[:, k])
+            lacks = s.centrifugal[:, k] - s.slack[:, k]
+            largest = np.abs(np.nan_to_num(f.force)).max(axis=(1, 2), initial=0.0)
+            loose = lacks > ROUNDING * np.abs(s.tight[:, k]) + PART * largest
             out.append(("slack", loose, partial(_slack_sentence, c, s, k)))
         else:
             slipping = s.needed[:, k] > has * (1 + ROUNDING)

@@ -29,8 +29,8 @@ SLIPS = (
     "{kind} {rope} needs {needed:.4g}, has {has:.4g}: it slips on {wheel}{arc}. "
     "Give it more turns or a greater coefficient, or lower the load."
 )
-ROUNDING = 1e-9
-"""Part of the greatest tension that a strand may lack."""
+ROUNDING, PART = 1e-9, 1e-12
+"""Part of the greatest tension that a strand may lack; part of the greatest force that is none."""
 
 
 class RopeLines(NamedTuple):
@@ -54,6 +54,8 @@ def rope_lines(c: Compiled, name: str, pose: Pose, force: Array) -> RopeLines:
     unit, length = strand_rows.direction(g, f, pose)
     pull = force[:, [c.joints.index(joints[k]) for k in own]]
     tension = -g.dot(unit[:, own], pull)
+    largest = np.abs(np.nan_to_num(force)).max(axis=(1, 2), initial=0.0)[:, None]
+    tension = np.where(np.abs(tension) <= PART * largest, 0.0, tension)  # nothing beside the machine's forces
     wheels = rope_wheels(c.mechanism.written, name)
     before = np.array([own[w.place - 1] for w in wheels], np.intp)
     after = np.array([own[w.place] for w in wheels], np.intp)
