@@ -247,6 +247,23 @@ def test_an_unknown_load_without_power_at_rest_is_no_state_of_rest() -> None:
     assert da.compile(m, static=True)().status[0].tolist() == list(r.status)
 
 
+def test_an_unknown_load_across_the_only_way_has_no_force() -> None:
+    """A screw with a given effort: the load's arm is rounding, in a program without a pivot that varies too."""
+    tree = da.screw_jack().to_tree()
+    tree["drives"]["S"]["effort"] = "5 N"
+    tree["loads"] = {
+        "put": {"type": "force", "on": "head", "at": "N", "value": "unknown", "direction": "0 deg"}
+    }
+    for way, status in (("0 deg", "no_balance"), ("30 deg", "ok")):
+        tree["loads"]["put"]["direction"] = way
+        m = da.mechanism(tree)
+        assert set(da.statics(m).status) == {status}
+        for vary in ([], ["links.head.mass"]):
+            b = da.compile(m, vary)()
+            assert set(b.status[0]) == {status}
+            assert np.isfinite(b["load.put"]).all() == (status == "ok")
+
+
 @pytest.mark.parametrize("reduce", [None, "peak"])
 def test_positions_to_which_no_motion_leads_are_those_of_the_analysis(reduce: str | None) -> None:
     """A yoke whose slot turns with the crank: it goes to infinity at 90 deg, and closes again behind."""

@@ -348,7 +348,7 @@ def _singular(p: TracedProblem, *factors: object) -> list[Node]:
         return []
     pivots = [x for f in {id(f): f for f in factors}.values() for x in _pivots(f)]
     if p.usual is not None and not p.usual.any():
-        return [p.graph.constant(-1.0)] if pivots else []
+        return [p.graph.constant(-1.0)]
     out = []
     for pivot, sample in zip(pivots, p.graph.evaluate(pivots, {}), strict=True):
         sizes = np.abs(sample if np.ndim(sample) == 0 or p.usual is None else sample[p.usual])

@@ -44,9 +44,9 @@ STEPS = 40
 """Newton's steps for a pose that has no closed form."""
 NEAR = 1e-7
 """Largest distance of a state's pose from the one at which Newton's steps began, for which they have converged."""
-STRIDE, STRIDES = 2.0, 256
+STRIDE, SHORT, STRIDES = 2.0, 1e-3, 256
 """Radians or metres that a pose may move by from one state to the next, so that whole turns are counted right; beyond
-that it is followed in parts, at most so many."""
+that it is followed in parts, of so much of a drive at least, and at most so many."""
 WEIGHTLESS = 1e-12
 """Part of the greatest inertia that is rounding."""
 DEAD_CENTRE = (
@@ -220,13 +220,16 @@ class Equation:
         from_ = self.known.start(q)
         pose = self.known.pose
         terms, parts = self._at(t, q, u), 2
-        while from_ is not None and self.known.moved(pose) > STRIDE and parts <= STRIDES:
+        most = 0.0 if from_ is None else min(float(np.abs(q - from_).max()) / SHORT, STRIDES)
+        while self.known.moved(pose) > STRIDE and parts <= most:
             self.known.pose, far = pose, 0.0
             for x in from_ + np.arange(1, parts + 1)[:, None] / parts * (q - from_):
                 before = self.known.pose
                 terms = self._at(t, x, u)
                 far = max(far, self.known.moved(before))
-            parts = 2 * parts if far > STRIDE else STRIDES + 1
+            if far <= STRIDE:
+                break
+            parts *= 2
         if not np.isfinite(terms.effort).all():
             self.known.pose = pose  # no state goes on from where the loops do not close
             if self.known.anchor is not None and self.known.anchor[0] is not pose:
