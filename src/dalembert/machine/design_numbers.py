@@ -81,7 +81,7 @@ def _deflection(r: Result, link: str) -> Array:
 
 
 def _slope(r: Result, link: str) -> Array:
-    """Greatest slope of a link in its bearings, rad; NaN where it has none."""
+    """Greatest slope of a link in its bearings, rad; NaN without bearings."""
     from dalembert.machine.members.member_forces import member_forces
 
     slopes = member_forces(r, link).deflection().slopes()

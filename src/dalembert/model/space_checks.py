@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.assembly import SpacePose
 from dalembert.model.joints.plane_joints import Gear
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
     from dalembert.model.description import Mechanism
     from dalembert.model.links.link import Inertia
 
-TURNING, PARALLEL = ("revolute", "cylindrical", "screw"), 1e-6
-"""Joints that turn about one axis; radians by which two axes may differ."""
+PARALLEL = 1e-6
+"""Radians by which two axes may differ."""
 ROUNDED = 1e-6
 """Relative excess of a principal inertia over the sum of the others that rounding may bring in."""
 
@@ -58,22 +59,17 @@ def space_problems(m: Mechanism) -> Iterator[ModelError]:
 def _other_axes(m: Mechanism, name: str, gear: Gear) -> Iterator[ModelError]:
     """Errors for wheels that turn about other axes than their gear says."""
     for side, link in enumerate(gear.links):
-        turning = {
-            n: j for n, j in m.joints.items() if link in j.links and j.type in TURNING and link != GROUND
-        }
-        axis = np.array(gear.frames[side], float)[:, 2]
-        about = {n: _axis(j, link) for n, j in turning.items()}
+        axis, about = np.array(gear.frames[side], float)[:, 2], dict[str, Array]()
+        for other, joint in m.joints.items():
+            turns = getattr(getattr(joint, "pair", None), "turns", "")
+            if link in joint.links and link != GROUND and len(turns) == 1:
+                frames = getattr(joint, "frames")  # noqa: B009
+                about[other] = np.array(frames[joint.links.index(link)], float)[:, "xyz".index(turns)]
         if about and not any(np.linalg.norm(np.cross(axis, x)) < PARALLEL for x in about.values()):
             what = (
                 f"gear {name!r} gives {link!r} an axis about which it does not turn in {' or '.join(about)}"
             )
             yield ModelError(what, f"write the one of {next(iter(about))}", ("joints", name))
-
-
-def _axis(joint: Any, link: str) -> Any:
-    """The axis about which a joint turns, in the axes of one of its links."""
-    frame = np.array(joint.frames[joint.links.index(link)], float)
-    return frame[:, "xyz".index(joint.pair.main)]
 
 
 def principal_inertias(inertia: Inertia) -> tuple[float, ...]:

@@ -20,7 +20,6 @@ from dalembert.analysis.batch.batch_result import (
     mark_overflow,
     not_finite,
 )
-from dalembert.analysis.batch.careful_path import breaks, redone
 from dalembert.analysis.batch.checked_input import (
     check_positions,
     design_values,
@@ -144,10 +143,6 @@ class Kernel:
     @property
     def nominal(self) -> Array:
         """Values of the numbers in the description."""
-        return self._nominal.copy()
-
-    @cached_property
-    def _nominal(self) -> Array:
         return np.array([n.value for n in self.trace.numbers])
 
     @cached_property
@@ -350,6 +345,8 @@ class Kernel:
     @cached_property
     def _deciding(self) -> Ints | None:
         """Numbers that decide the branch: of `assembly`, and of the geometry where the motion passes change points."""
+        from dalembert.analysis.batch.careful_path import breaks
+
         flips = self.trace.catalogue.traced.flips
         chosen = [chooses_motion(self.mechanism, path, flips) for path in self.numbers]
         return None if breaks(self) else np.flatnonzero(chosen)
@@ -358,7 +355,7 @@ class Kernel:
         """Designs whose motion may be another than the file's, each left to the general executor; None for none."""
         if self._deciding is None:
             return np.ones(len(values), bool)
-        other = (values != self._nominal)[:, self._deciding].any(axis=1)
+        other = (values != self.nominal)[:, self._deciding].any(axis=1)
         return np.asarray(other) if self._deciding.size else None
 
     def _targets(
@@ -379,6 +376,8 @@ class Kernel:
 
     def _settle(self, values: Array, course: PositionPath, sides: Sides, redo: bool) -> int:
         """Number of designs for which the general executor was used; numbers that are not solved are removed."""
+        from dalembert.analysis.batch.careful_path import redone
+
         code, arrays, rates = sides.code, sides.arrays, sides.rates
         if redo:
             moves = course.schedule.moves | bool(course.counted.unknown_loads)  # which may have no power

@@ -74,8 +74,8 @@ def balanced_drive(r: Result) -> str | None:
 def values_of(s: Shaking) -> dict[str, Array]:
     """Force and moment of inertia, which added masses are to make small, and the effort of the first drive if any.
 
-    No added mass changes a load from outside, so neither that nor the weights are part of what is to be least. What is
-    rounding beside the forces of the machine at all positions is 0.
+    No added mass changes a load from outside, so neither that nor the weights are part of what is to be least. Values
+    that are rounding beside the forces of the machine are 0.
     """
     r = s.result
     drive = balanced_drive(r)

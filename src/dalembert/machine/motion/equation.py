@@ -45,8 +45,8 @@ STEPS = 40
 NEAR = 1e-7
 """Largest distance of a state's pose from the one at which Newton's steps began, for which they have converged."""
 STRIDE, SHORT, STRIDES = 2.0, 1e-3, 256
-"""Radians or metres that a pose may move by from one state to the next, so that whole turns are counted right; beyond
-that it is followed in parts, of so much of a drive at least, and at most so many."""
+"""Radians or metres by which a pose may move from one state to the next, as turns are counted; a longer motion is
+followed in parts: the least motion of a drive in one of them, and the largest number of parts."""
 WEIGHTLESS = 1e-12
 """Part of the greatest inertia that is rounding."""
 DEAD_CENTRE = (
@@ -115,7 +115,7 @@ class LastPose:
     anchor: tuple[Pose, Array] | None = None
 
     def start(self, q: Array) -> Array | None:
-        """Begin a state from the nearer one of the last state and the anchor; the drives' positions there, if known."""
+        """Begin a state from the nearer one of the last state and the anchor; returns its drives' positions."""
         from_ = self.at
         if self.anchor is not None and from_ is not None:
             pose, at = self.anchor
@@ -125,7 +125,7 @@ class LastPose:
         return from_
 
     def moved(self, before: Pose) -> float:
-        """How far it is from another pose, in m or rad."""
+        """Largest difference from another pose, in m or rad."""
         return max(float(np.abs(x - y[:1]).max(initial=0.0)) for x, y in zip(self.pose, before, strict=True))
 
     def follow(self, values: Array) -> float:

@@ -89,8 +89,8 @@ class Guard:
     A side of 0 is not known yet. ``trend``: how it went on, times its side, at the end of the last step; ``turned``: an
     instant within a step at which it is beyond zero, to come back before the step ends. ``column``: where machine code
     has the value, less ``level``: a number of the state, or behind these one that is watched; -1 where it has not.
-    ``least``: amount by which it is surely beyond zero. ``looked``: the longest step within which it has been looked
-    at, and followed; ``seen``: times and values, times its side, at the ends of the last two.
+    ``least``: amount by which it is surely beyond zero. ``looked``: the longest step within which it was evaluated, and
+    followed from its neighbours; ``seen``: times and values, times its side, at the ends of the last two.
     """
 
     kind: str
@@ -107,13 +107,13 @@ class Guard:
 
     @property
     def anywhere(self) -> bool:
-        """True if it may pass zero more than once within a step, as steps are not chosen by its value."""
+        """True if it may pass zero several times within a step, as the steps are not chosen by its value."""
         return self.column < 0 and self.kind in ("corner", "condition")
 
     def look_within(
         self, dense: Callable[[], Callable[[float], Array]], before: float, t: float, y: Array
     ) -> None:
-        """Find where it is first beyond zero within a step up to a state; its states, ``dense``, are made if needed."""
+        """Find the first instant at which it is beyond zero within a step up to a state; ``dense`` makes its states."""
         now = (t, self.value(t, y) * self.side)
         ends = np.array([*self.seen[-2:], now]).T
         self.seen, self.turned = (*self.seen[-1:], now), inf
@@ -134,45 +134,45 @@ class Guard:
 
 
 UNEVEN, FOLLOWS, FINER, LONGER = 0.38, 0.1, 12, 1.5
-"""Where between two instants of a step another one is looked at; part of the largest value by which a value may differ
-from the straight line between those beside it; how often more are looked at; and how many times a step may be longer
-than those looked into so far, if its end follows from the ends before."""
+"""Place of another instant between two of a step; part of the largest value by which a value may differ from the
+straight line between its neighbours; number of times that instants are added; and the factor by which a step may be
+longer than those evaluated within so far, if its end follows from the ends before."""
 
 
 def lowest(x: Array, v: Array) -> Array:
-    """Least value between three places x (3, ...) of parabolas through values v (3, ...); infinite where they have none
-    there.
+    """Minima of parabolas through values v (3, ...) at places x (3, ...); infinite for those without one between them.
 
     >>> float(lowest(np.array([0.0, 1.0, 3.0]), np.array([4.0, 1.0, 1.0])))
     0.0
     """
-    left, right = (v[1] - v[0]) / (x[1] - x[0]), (v[2] - v[1]) / (x[2] - x[1])
-    bend = (right - left) / (x[2] - x[0])
-    slope = left + bend * (x[1] - x[0])
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):  # two may be one place
+        left, right = (v[1] - v[0]) / (x[1] - x[0]), (v[2] - v[1]) / (x[2] - x[1])
+        bend = (right - left) / (x[2] - x[0])
+        slope = left + bend * (x[1] - x[0])
         place = x[1] - slope / (2 * bend)
         inside = (bend > 0) & (x[0] <= place) & (place <= x[2])
         return np.where(inside, v[1] - slope**2 / (4 * bend), inf)
 
 
 def follows(x: Array, v: Array) -> Flags:
-    """Whether values v (3, ...) of functions at places x (3, ...) follow from each other and stay clear of zero, so
-    that nothing happens between them that they do not show.
+    """True for functions whose values v (3, ...) at places x (3, ...) follow from each other and stay clear of zero, so
+    that their sign does not change twice between two of them.
 
     >>> x = np.array([0.0, 1.0, 2.0])
     >>> [bool(follows(x, np.array(v))) for v in ([3.0, 2.0, 1.1], [3.0, 2.0, 4.0], [3.0, 0.1, 0.1])]
     [True, False, False]
     """
-    off = np.abs(v[1] - v[0] - (x[1] - x[0]) / (x[2] - x[0]) * (v[2] - v[0]))
+    with np.errstate(all="ignore"):
+        off = np.abs(v[1] - v[0] - (x[1] - x[0]) / (x[2] - x[0]) * (v[2] - v[0]))
     clear = lowest(x, v) > FOLLOWS * (v.max(axis=0) - v.min(axis=0))
     return np.asarray(clear & (off <= FOLLOWS * np.abs(v).max(axis=0)))
 
 
 def first_beyond(value: Callable[[float], float], low: float, high: float) -> tuple[float, bool]:
-    """The first instant found after ``low``, up to ``high``, at which a function is below zero, infinite where none is;
-    and whether its values followed from those beside them at once.
+    """The first instant after ``low``, up to ``high``, at which a function is below zero, or infinity; and True if its
+    values followed from their neighbours at once.
 
-    The function is looked at ever finer until they do, and where it has a minimum between two of them.
+    Instants are added until all values do, and minima between two of them are searched for.
 
     >>> first_beyond(lambda t: np.cos(40 * t), 0.0, 3.0)[0] < 3 * np.pi / 80
     True

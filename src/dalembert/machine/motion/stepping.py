@@ -283,15 +283,15 @@ class StepState(CodedState):
         return value * g.side < -g.least
 
     def _look_within(self, guards: Sequence[Guard], solver: Steps | MachineSteps, before: float) -> None:
-        """Where guards that may pass zero anywhere within the last step, whose length does not follow their values, are
-        first beyond it."""
+        """Find the first instants at which guards are beyond zero within the last step, of those whose values do not
+        choose the steps."""
         for g in guards:
             if g.anywhere and g.side:
                 g.look_within(solver.dense_output, before, solver.t, solver.y)
 
     def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
-        """True if a corner, a condition or a tooth is passed within the last step, which ends on its first side;
-        ``_look_within`` has looked."""
+        """True if a corner, a condition or a tooth is passed within the last step, which ends on its first side; called
+        behind ``_look_within``."""
         if g.kind not in TURNING or not g.side:
             return False
         if g.anywhere:

@@ -171,7 +171,7 @@ class CornerState(ElasticState):
         """Take a switch to its other side; StoppedError where its jump pushes back at once."""
         switch = self.switching[g.which]
         if t == self.gone_over and switch.value(t, y) * g.side > 0:
-            return  # what it depends on has gone over at this instant too: it is where it was
+            return  # a switch inside it has gone over at this instant too, and it keeps its side
         self.gone_over = t
         self._flip(switch, -g.side, t, y)
         faster = y.copy()

@@ -57,7 +57,7 @@ class CourseRest(CourseState):
         self.lose(k[(self.values[np.ix_(k, self.machine.sides)] == 0).any(axis=1)])
 
     def find_nested_sides(self, k: Ints, before: Array) -> None:
-        """Sides of what jumps with those that have gone over, of designs with values (K, V) before that."""
+        """Sides of switches that jump with those that have gone over, of designs with values (K, V) before that."""
         if not len(k) or len(self.machine.sides) < 2:
             return
         was = self._switching_ahead(k, before)
@@ -69,7 +69,7 @@ class CourseRest(CourseState):
         self.lose(k[(self.values[np.ix_(k, self.machine.sides)] == 0).any(axis=1)])
 
     def _switching_ahead(self, k: Ints, values: Array) -> Array:
-        """What switches loads (K, S) by values (K, V), a little later by the present ones."""
+        """Switching values of loads (K, S) by values (K, V), a little later by the present ones."""
         machine, place = self.machine, self.machine.code.place("corners")
         rates, h = look(machine.code.steps, self.values[k], self.t[k], self.y[k])[0], SOON * machine.end
         d, later = machine.drives, self.y[k] + h * rates

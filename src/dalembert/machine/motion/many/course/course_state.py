@@ -64,7 +64,7 @@ class CourseState:
         self.closing = np.zeros((m, machine.code.stops))
         self.began, self.longest, self.flickers = np.zeros(m), np.zeros(m), np.zeros(m, int)
         self.events, self.attempts = np.zeros(m, int), np.zeros(m, int)
-        self.looked = np.zeros(m)  # longest step within which what switches has been looked at
+        self.looked = np.zeros(m)  # longest step within which the switches were evaluated
         self.now, self.past = np.zeros((m, count)), np.zeros((m, count))  # guards, also of an instant before
         self.past_time = np.full(m, np.nan)
         self.lines = values[:, machine.first : machine.first + 2 * machine.drives].copy()  # of motors

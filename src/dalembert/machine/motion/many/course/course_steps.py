@@ -18,12 +18,12 @@ ATTEMPTS, MOST = 16, 20_000
 """Attempts of steps at once, and those after which a design is lost."""
 
 LOOKED_AT, TOUCHES = (0.2, 0.38, 0.6, 0.81), 1e-12
-"""Parts of a step at which what switches loads is looked at; part of its largest value by which it only touches 0."""
+"""Parts of a step at which switches of loads are evaluated; part of its largest value by which one only touches 0."""
 
 
 def _unclear(x: Array, v: Array) -> Flags:
-    """Whether functions with values v at places x, both along the first axis, are below zero and come back, or may, or
-    whether a value does not follow from those beside it."""
+    """True for functions with values v at places x, both along the first axis, that are below zero and come back, that
+    may do so, or with a value that does not follow from its neighbours."""
     size = np.abs(v).max(axis=0)
     part = (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
     off = np.abs(v[1:-1] - v[:-2] - part * (v[2:] - v[:-2]))
@@ -152,8 +152,8 @@ class CourseSteps(CourseStops):
             self._meet(k[place], records[place, which[place]], crossed[place, which[place]])
 
     def _first_too_long(self, k: Ints, records: Array, taken: Flags, ends: Array) -> tuple[Flags, Ints]:
-        """Whether a step of a design is too long to see what switches its loads by its end, and the first of them (K,):
-        that passes zero and comes back, or may, or does not follow from its values beside."""
+        """True for designs with a step whose end does not show all that switches their loads, and the first such step
+        (K,): a switch passes zero and comes back, may do so, or does not follow from its neighbours."""
         corners = self.machine.guards.those("corner")
         out: Flags = np.zeros(taken.shape, bool)
         if len(corners):
@@ -186,8 +186,8 @@ class CourseSteps(CourseStops):
         return np.asarray(out.any(axis=1)), out.argmax(axis=1)
 
     def _keep_past(self, k: Ints, records: Array, value: Array, kept: Flags, meets: Flags) -> None:
-        """Keep the guards' values at the last instant, and at the one before it, with its time: behind an event, which
-        is the last instant then, those of the last step."""
+        """Keep the guards' values at the last instant, and at the one before it, with its time. At an event, which is
+        the last instant then, the one before it is the end of the last step."""
         each, count = np.arange(len(k)), kept.sum(axis=1)
         last = ATTEMPTS - 1 - kept[:, ::-1].argmax(axis=1)
         others = kept.copy()
