@@ -293,3 +293,29 @@ loads: {P: {type: force, on: yoke, at: S, value: [-10, 0]}}
     few = m.with_values({"drives.O.position": ["0 deg", "40 deg", "60 deg"]})  # where it closes throughout
     assert (da.compile(few, ["links.crank.points.A.0"])([[0.1], [0.12]]).status == "ok").all()
     assert da.compile(few)().redone == 0
+
+
+def test_guides_that_do_the_same_may_vary_one_by_one() -> None:
+    """Of two equal slots of a rod one has a direction that varies: by the file's number it closes, by others not."""
+    m = da.loads("""
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}}
+  rod: {points: {A: [0, 0], P: [0.3, 0]}}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  P: {type: slot, links: [ground, rod], at: [O, P]}
+  twin: {type: slot, links: [ground, rod], at: [O, P]}
+drives: {O: {position: [30 deg, 70 deg]}}
+loads: {F: {type: force, on: rod, at: P, value: [-20, 0]}}
+assembly: {rod: -10 deg}
+""")
+    assert da.statics(m).status == ("redundant",) * 2
+    for vary in (["joints.P.direction"], ["joints.P.direction", "links.rod.points.P.0"]):
+        k = da.compile(m, vary, ["effort.O"])
+        b = k([k.nominal, k.nominal + 0.01])
+        assert b.status.tolist() == [["ok"] * 2, ["not_assembled"] * 2]
+        assert b["effort.O"][0] == pytest.approx(da.statics(m).effort("O"), rel=1e-12)
+    k = da.compile(m, ["links.rod.points.P.0"], ["effort.O"])
+    assert k([[0.3], [0.31]]).redone == 0  # both guides stay where they are

@@ -79,15 +79,16 @@ def redone(
 
 
 def breaks(k: Kernel) -> bool:
-    """True if by the file's numbers a position closes to which no motion leads from the others: then the motion of
-    each design decides."""
+    """True if by the file's numbers a position closes to which no motion leads from the others, or one that closes is
+    not found among redundant constraints: then the motion of each design decides."""
     course = k.trace.course
     lost = ~np.isfinite(course.pose.point).all(axis=(1, 2))
-    if not lost.any():
+    if not (lost.any() or k.trace.redundant):
         return False
     single = k if k.reduce is None else replace(k, reduce=None, derivatives=False)
     code = single.runner("cpu", k.nominal[None], course, None, None, None)[0][0]
-    return bool(np.isin(code, NUMBERED)[lost].any())
+    open_ = code == CODES.index("not_assembled")
+    return bool((np.isin(code, NUMBERED) & lost | open_ & ~lost).any())
 
 
 def reduce_design(

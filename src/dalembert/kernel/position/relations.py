@@ -13,6 +13,9 @@ from dalembert.kernel.graph import Node, Scalar, is_zero
 from dalembert.kernel.position import plane_vectors as v
 from dalembert.kernel.position.plane_vectors import Pair
 
+PARALLEL = 1e-9
+"""Sine of the angle of two lines below which they do not determine a point."""
+
 
 @dataclass(frozen=True)
 class Relation:
@@ -67,6 +70,9 @@ def _driven_slides(conditions: list[Relation]) -> list[Relation]:
             out[key] = r
             continue
         (a, s), (b, t) = (first.axis, first.target), (r.axis, r.target)
+        if abs(v.cross(a, b)) < PARALLEL:  # two guides that do the same
+            out[k] = r
+            continue
         over = 1.0 / v.cross(a, b)
         shift = (over * (s * b[1] - t * a[1]), over * (t * a[0] - s * b[0]))
         rows = (*first.rows, *r.rows)
