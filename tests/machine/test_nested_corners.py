@@ -145,6 +145,17 @@ def test_a_step_too_long_to_see_a_switch(values: list[float], unclear: bool) -> 
     assert _unclear(x, np.array(values, float)[:, None]).item() is unclear
 
 
+@pytest.mark.parametrize("until", ["0.02 s", "0.05 s"])
+def test_turns_are_counted_in_steps_longer_than_a_turn(until: str) -> None:
+    """A differential under a constant moment is integrated in few steps, which its wheels' turns are followed in."""
+    s = da.simulate(
+        da.bevel_differential(), until, start={"left": {"position": 0.0, "speed": "2 rad/s"}}, count=11
+    )
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+    assert s.position("left")[-1] > 0.9
+    assert not s.doubt
+
+
 def test_a_machine_at_a_place_where_it_has_no_inertia_is_refused() -> None:
     """A slider-crank whose only mass is its slider, at its dead centre and beside it."""
     text = """

@@ -28,10 +28,8 @@ ANY = 1.25
 def kind_in_file(tree: object, keys: Sequence[str]) -> str:
     """Kind of the number at a path of a saved file, from `units.KINDS`, by the unit written with it."""
     for key in keys:
-        if (
-            isinstance(tree, dict) and key.isdigit() and key not in tree
-        ):  # of numbers that a file writes by name
-            tree = list(tree.values())
+        if isinstance(tree, dict) and key.isdigit() and key not in tree:
+            tree = list(tree.values())  # numbers that a file writes by name
         tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
     unit = tree.partition(" ")[2] if isinstance(tree, str) else ""
     return next((kind for kind, of in KINDS.items() if of.si == unit), "number")

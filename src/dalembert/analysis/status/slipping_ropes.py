@@ -55,9 +55,7 @@ def rope_lines(c: Compiled, name: str, pose: Pose, force: Array) -> RopeLines:
     pull = force[:, [c.joints.index(joints[k]) for k in own]]
     tension = -g.dot(unit[:, own], pull)
     largest = np.abs(np.nan_to_num(force)).max(axis=(1, 2), initial=0.0)[:, None]
-    tension = np.where(
-        np.abs(tension) <= PART * largest, 0.0, tension
-    )  # rounding beside the machine's forces
+    tension = np.where(np.abs(tension) <= PART * largest, 0.0, tension)
     wheels = rope_wheels(c.mechanism.written, name)
     before = np.array([own[w.place - 1] for w in wheels], np.intp)
     after = np.array([own[w.place] for w in wheels], np.intp)
