@@ -70,10 +70,11 @@ def _driven_slides(conditions: list[Relation]) -> list[Relation]:
             out[key] = r
             continue
         (a, s), (b, t) = (first.axis, first.target), (r.axis, r.target)
-        if abs(v.cross(a, b)) < PARALLEL:  # two guides that do the same
+        sine = v.cross(a, b)
+        if -PARALLEL < sine < PARALLEL:  # two guides that do the same
             out[k] = r
             continue
-        over = 1.0 / v.cross(a, b)
+        over = 1.0 / sine
         shift = (over * (s * b[1] - t * a[1]), over * (t * a[0] - s * b[0]))
         rows = (*first.rows, *r.rows)
         out[key] = replace(first, kind="meet", ui=v.plus(r.ui, shift), axis=NONE, target=0.0, rows=rows)
