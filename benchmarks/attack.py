@@ -53,8 +53,8 @@ dead centre, beside which two ways may go on differently."""
 Findings = Iterator[str]
 
 
-class LateError(Exception):
-    """A model took too long."""
+class LateError(BaseException):
+    """A model took too long; nothing in between catches it."""
 
 
 def _late(*_: object) -> None:
