@@ -13,6 +13,8 @@ import pytest
 
 import dalembert as da
 from dalembert import bundled
+from dalembert.analysis.output.rounding import PART, sizes
+from dalembert.machine.balance.comparison import values_of
 from dalembert.machine.balance.cone_programme import ConeSolution
 from dalembert.machine.balance.counterweights import counterweights
 from dalembert.machine.balance.mass_columns import mass_columns
@@ -322,20 +324,15 @@ def test_a_machine_that_has_no_forces_is_not_balanced(made: Any, drive: str, lin
         da.balance(r, [link])
 
 
-def test_what_a_damper_between_fixed_points_does_is_rounding_and_nothing_is_left_of_it() -> None:
-    """Its rate is rounding; so is the torque of a machine without mass, before and after."""
-    m = da.load(bundled.cases()["sp-07-hooke-joint-equal-speeds"])
-    tree = m.to_tree()
-    for size in ("40 N*s/m", "4e9 N*s/m"):
-        ends = ["output.E", "ground.O"]
-        tree["loads"] = {"between": {"type": "damper", "between": ends, "damping": size}}
-        r = da.dynamics(da.mechanism(tree))
-        assert np.abs(r.effort_array).max() < 1e-9 * np.abs(r.force_array).max() or not r.force_array.any()
-        b = da.balance(r, ["output"])
-        assert b.sizes(after=False)["torque"] == b.sizes()["torque"] == (0.0, 0.0)
-        assert b.residual == 0
-        assert "There was no force to balance" in b.text()
-        assert "%" not in b.text()
+def test_a_torque_of_rounding_is_none_and_nothing_is_left_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beside the largest force of the machine times its length, from both sides of the limit."""
+    r = da.dynamics(da.four_bar())
+    limit = PART * sizes(r)["force"].max() * r.compiled.layout.length
+    s = da.shaking(r)
+    for size, counts in ((0.99 * limit, False), (1.01 * limit, True)):
+        monkeypatch.setattr(type(r), "effort", lambda self, name, x=size: np.full(len(r.status), x))
+        assert values_of(s)["torque"].any() == counts
+        assert values_of(s)["force"].any()
 
 
 def test_loads_of_no_machine_are_no_swaying_couple() -> None:

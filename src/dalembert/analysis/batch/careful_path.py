@@ -79,8 +79,8 @@ def redone(
 
 
 def breaks(k: Kernel) -> bool:
-    """True if by the file's numbers a position closes to which no motion leads from the others, or one that closes is
-    not found among redundant constraints: then the motion of each design decides."""
+    """True if by the file's numbers a position closes to which no motion leads from the others, or one that closes does
+    not by the kernel, of redundant constraints: then the motion of each design decides."""
     course = k.trace.course
     lost = ~np.isfinite(course.pose.point).all(axis=(1, 2))
     if not (lost.any() or k.trace.redundant):

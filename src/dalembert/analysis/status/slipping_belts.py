@@ -12,6 +12,7 @@ import numpy as np
 
 from dalembert.analysis.compile.elements.belt_arrays import belts_of, grip, wedge
 from dalembert.analysis.friction.friction_status import Check, arc
+from dalembert.analysis.output.rounding import PART, largest
 from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Array, Ints, first_largest
 from dalembert.core.elements import belt_pulls
@@ -30,8 +31,8 @@ SLACK = (
     "The slack strand of {kind} {joint} would have to push with {force}{arc}. "
     "Raise its tension, or lower the load."
 )
-ROUNDING, PART = 1e-9, 1e-12
-"""Part of the tight strand's tension that the slack one may lack; part of the greatest force that is none."""
+ROUNDING = 1e-9
+"""Part of the tight strand's tension that the slack one may lack."""
 
 
 class Strands(NamedTuple):
@@ -89,8 +90,7 @@ def belt_checks(c: Compiled, pose: Pose, twist: Array, f: SolvedForces) -> list[
         has = grip(c.mechanism, belt)
         if has is None:
             lacks = s.centrifugal[:, k] - s.slack[:, k]
-            largest = np.abs(np.nan_to_num(f.force)).max(axis=(1, 2), initial=0.0)
-            loose = lacks > ROUNDING * np.abs(s.tight[:, k]) + PART * largest
+            loose = lacks > ROUNDING * np.abs(s.tight[:, k]) + PART * largest(len(lacks), f.force)
             out.append(("slack", loose, partial(_slack_sentence, c, s, k)))
         else:
             slipping = s.needed[:, k] > has * (1 + ROUNDING)

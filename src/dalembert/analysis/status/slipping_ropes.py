@@ -12,6 +12,7 @@ import numpy as np
 
 from dalembert.analysis.compile.elements.rope_parts import RopeWheel, rope_wheels, strand_names
 from dalembert.analysis.friction.friction_status import Check, arc
+from dalembert.analysis.output.rounding import PART, largest
 from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Array, Ints, first_largest
 from dalembert.core.elements import strand_rows
@@ -29,8 +30,8 @@ SLIPS = (
     "{kind} {rope} needs {needed:.4g}, has {has:.4g}: it slips on {wheel}{arc}. "
     "Give it more turns or a greater coefficient, or lower the load."
 )
-ROUNDING, PART = 1e-9, 1e-12
-"""Part of the greatest tension that a strand may lack; part of the greatest force that is none."""
+ROUNDING = 1e-9
+"""Part of the greatest tension that a strand may lack."""
 
 
 class RopeLines(NamedTuple):
@@ -54,8 +55,7 @@ def rope_lines(c: Compiled, name: str, pose: Pose, force: Array) -> RopeLines:
     unit, length = strand_rows.direction(g, f, pose)
     pull = force[:, [c.joints.index(joints[k]) for k in own]]
     tension = -g.dot(unit[:, own], pull)
-    largest = np.abs(np.nan_to_num(force)).max(axis=(1, 2), initial=0.0)[:, None]
-    tension = np.where(np.abs(tension) <= PART * largest, 0.0, tension)
+    tension = np.where(np.abs(tension) <= PART * largest(len(force), force)[:, None], 0.0, tension)
     wheels = rope_wheels(c.mechanism.written, name)
     before = np.array([own[w.place - 1] for w in wheels], np.intp)
     after = np.array([own[w.place] for w in wheels], np.intp)

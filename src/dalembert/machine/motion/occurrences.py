@@ -154,6 +154,16 @@ def lowest(x: Array, v: Array) -> Array:
         return np.where(inside, v[1] - slope**2 / (4 * bend), inf)
 
 
+def off_line(x: Array, v: Array) -> Array:
+    """Differences of the second of values v (3, ...) at places x (3, ...) from the straight lines through the others.
+
+    >>> float(off_line(np.array([0.0, 1.0, 4.0]), np.array([0.0, 1.5, 4.0])))
+    0.5
+    """
+    with np.errstate(all="ignore"):
+        return np.abs(v[1] - v[0] - (x[1] - x[0]) / (x[2] - x[0]) * (v[2] - v[0]))
+
+
 def follows(x: Array, v: Array) -> Flags:
     """True for functions whose values v (3, ...) at places x (3, ...) follow from each other and stay clear of zero, so
     that their sign does not change twice between two of them.
@@ -162,10 +172,8 @@ def follows(x: Array, v: Array) -> Flags:
     >>> [bool(follows(x, np.array(v))) for v in ([3.0, 2.0, 1.1], [3.0, 2.0, 4.0], [3.0, 0.1, 0.1])]
     [True, False, False]
     """
-    with np.errstate(all="ignore"):
-        off = np.abs(v[1] - v[0] - (x[1] - x[0]) / (x[2] - x[0]) * (v[2] - v[0]))
     clear = lowest(x, v) > FOLLOWS * (v.max(axis=0) - v.min(axis=0))
-    return np.asarray(clear & (off <= FOLLOWS * np.abs(v).max(axis=0)))
+    return np.asarray(clear & (off_line(x, v) <= FOLLOWS * np.abs(v).max(axis=0)))
 
 
 def first_beyond(value: Callable[[float], float], low: float, high: float) -> tuple[float, bool]:

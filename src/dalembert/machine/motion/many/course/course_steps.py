@@ -12,7 +12,7 @@ from dalembert.kernel.emit.integrator import record_size
 from dalembert.machine.motion.coded.steps import LEAST, between, first_step, state_sizes
 from dalembert.machine.motion.many.course.course_stops import CourseStops
 from dalembert.machine.motion.many.event_program import look
-from dalembert.machine.motion.occurrences import FOLLOWS, LONGER, follows, lowest
+from dalembert.machine.motion.occurrences import FOLLOWS, LONGER, follows, lowest, off_line
 
 ATTEMPTS, MOST = 16, 20_000
 """Attempts of steps at once, and those after which a design is lost."""
@@ -25,9 +25,8 @@ def _unclear(x: Array, v: Array) -> Flags:
     """True for functions with values v at places x, both along the first axis, that are below zero and come back, that
     may do so, or with a value that does not follow from its neighbours."""
     size = np.abs(v).max(axis=0)
-    part = (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
-    off = np.abs(v[1:-1] - v[:-2] - part * (v[2:] - v[:-2]))
-    least = lowest(np.stack([x[:-2], x[1:-1], x[2:]]), np.stack([v[:-2], v[1:-1], v[2:]]))
+    triples = [np.stack([a[:-2], a[1:-1], a[2:]]) for a in (x, v)]
+    off, least = off_line(*triples), lowest(*triples)
     back = (v[1:-1] < 0) & (v[2:] >= 0)
     dips = (least < -TOUCHES * size) & (v[2:] >= 0) & (v[1:-1] >= 0) & (v[:-2] >= 0)
     return np.asarray((back | dips | (off > 2 * FOLLOWS * size)).any(axis=0))
