@@ -161,7 +161,7 @@ def off_line(x: Array, v: Array) -> Array:
     0.5
     """
     with np.errstate(all="ignore"):
-        return np.abs(v[1] - v[0] - (x[1] - x[0]) / (x[2] - x[0]) * (v[2] - v[0]))
+        return np.asarray(np.abs(v[1] - v[0] - (x[1] - x[0]) / (x[2] - x[0]) * (v[2] - v[0])))
 
 
 def follows(x: Array, v: Array) -> Flags:
