@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import dalembert as da
 from dalembert.core.branchless import above, tanh, top, unit
 from dalembert.core.factor import row_scale
 from dalembert.core.linear import (
@@ -131,3 +132,22 @@ def test_choices_of_mixed_values_are_those_of_numbers() -> None:
         assert np.array(top(given, 3), float).tolist() == 5.0
     along, across, length = unit(np.array([3.0, 3.0]), np.array([4.0, 4.0]), np.array([5.0, 10.0]))
     assert np.array([along, across, length]) == pytest.approx(np.array([[0.6, 0.3], [0.8, 0.4], [5.0, 5.0]]))
+
+
+def test_a_long_arm_is_not_singular_and_a_small_pivot_is() -> None:
+    """A row that is a million times as long has the condition of the others; a pivot that is one does not."""
+    one, part = np.ones(2), 0.5 * SINGULAR
+    long_arm = np.array([[1.0, 1.0 / part], [0.0, 1.0]])
+    pivot = np.array([[1.0, 1.0], [1.0, 1.0 + part]])
+    rcond = inverse(np.array([long_arm, pivot, np.ones((2, 2))]), one, one).rcond
+    assert rcond[0] > 0.1
+    assert (rcond[1:] < SINGULAR).all()
+
+
+def test_a_slider_far_from_where_it_began_is_at_no_dead_centre() -> None:
+    """A thousand and ten thousand times the length of the links: by both methods, first and again."""
+    near = da.dynamics(da.wedge(sweep=("0 m", "1 m"), positions=11))
+    m = da.wedge(width="0.1 mm", sweep=("0 m", "1 m"), positions=11)
+    for r in (da.dynamics(m), da.dynamics(m, method="careful"), da.dynamics(m)):
+        assert set(r.status) == {"ok"}
+        assert r.force_array == pytest.approx(near.force_array, rel=1e-9)

@@ -335,6 +335,16 @@ def test_a_torque_of_rounding_is_none_and_nothing_is_left_of_it(monkeypatch: pyt
         assert values_of(s)["force"].any()
 
 
+def test_a_force_of_rounding_is_none_beside_that_of_the_mass_on_the_radius() -> None:
+    """The only mass lies on its axis: 8e-34 N of 0.25 N that it would have on the radius of its link."""
+    tree = da.load(bundled.cases()["sp-07-hooke-joint-equal-speeds"]).to_tree()
+    tree["links"]["output"]["mass"] = 0.5
+    r = da.dynamics(da.mechanism(tree))
+    assert da.shaking(r).largest == pytest.approx(0.25, rel=1)
+    b = da.balance(r, ["output"])
+    assert (b.residual, b.complete, b.placed["output"].mass) == (0.0, True, 0.0)
+
+
 def test_loads_of_no_machine_are_no_swaying_couple() -> None:
     """A locomotive at rest, with a place beside the plane for its links and no load."""
     m = da.load(bundled.cases()["bal-3-inside-cylinder-locomotive"])

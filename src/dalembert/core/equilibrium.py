@@ -23,11 +23,11 @@ from dalembert.core.elements.cam_family import CamRow
 from dalembert.core.elements.linings import BandStrands, Lining
 from dalembert.core.elements.strand_family import Strand
 from dalembert.core.elements.turning_frame import centrifugal, turning_square
-from dalembert.core.factor import SPARSE, factor
+from dalembert.core.factor import SPARSE, factor, row_scale
 from dalembert.core.forcing import Forcing, WrenchSource, pair, total_wrench
 from dalembert.core.geometry import arm
 from dalembert.core.layout import BeltMesh, ConstraintRows, Gearing, Helix, Layout, Mesh, Pose, Rows
-from dalembert.core.linear import Factor, PseudoInverse, compliant, inverse
+from dalembert.core.linear import Factor, PseudoInverse, compliant, even_rcond
 from dalembert.core.rank import singular_below
 
 
@@ -225,13 +225,8 @@ def _rcond(layout: Layout, rows: ConstraintRows) -> Array:
     be solved."""
     if len(rows.i) != layout.unknowns or layout.unknowns > SPARSE:
         return factor(layout, rows).rcond
-    matrix = np.nan_to_num(dense(layout, rows)) * layout.column_scale
-    matrix[np.abs(matrix) < singular_below(layout)] = 0.0
-    for axis in (2, 1, 2):
-        size = np.abs(matrix).max(axis=axis, keepdims=True, initial=0.0)
-        matrix = matrix / np.where(size > 0, size, 1.0)
-    scale = np.ones(layout.unknowns)
-    return inverse(matrix, scale, scale).rcond
+    scale = row_scale(layout, rows.angular)[:, None] * layout.column_scale
+    return even_rcond(dense(layout, rows) * scale, singular_below(layout))
 
 
 def _unknowns(layout: Layout, known: Known, pose: Pose, rows: ConstraintRows) -> ConstraintRows:

@@ -63,12 +63,36 @@ class Inverse:
 
 
 def inverse(j: Array, row: Array, column: Array) -> Inverse:
-    """Factors square systems J (..., m, m). Only the singular ones get NaN and rcond 0."""
+    """Factors square systems J (..., m, m). Only the singular ones get NaN and rcond 0.
+
+    A small ``rcond`` is judged again with all rows and columns of one size: an arm that is long beside the
+    characteristic length, as of a slider far from where it began, loses no digits.
+    """
     matrix = j * row[..., None] * column
     inv = inverses(matrix)
+    rcond = _rcond(matrix, inv)
+    small = (rcond > 0) & (rcond < SINGULAR)
+    if small.any():
+        rcond[small] = np.maximum(rcond[small], even_rcond(matrix[small]))
+    return Inverse(matrix, inv, row, column, rcond)
+
+
+def _rcond(matrix: Array, inv: Array) -> Array:
+    """Reciprocal condition numbers (...) in the 1-norm; 0 of what has no inverse."""
     with np.errstate(all="ignore"):
         rcond = 1 / (np.abs(matrix).sum(axis=-2).max(axis=-1) * np.abs(inv).sum(axis=-2).max(axis=-1))
-    return Inverse(matrix, inv, row, column, np.nan_to_num(rcond, nan=0.0))
+    return np.asarray(np.nan_to_num(rcond, nan=0.0))
+
+
+def even_rcond(matrix: Array, arm: float = SINGULAR) -> Array:
+    """Reciprocal condition numbers (...) of scaled matrices (..., m, m) with rows and columns of one size; what is
+    below ``arm`` counts as 0."""
+    even = np.nan_to_num(matrix)
+    even[np.abs(even) < arm] = 0.0
+    for axis in (-1, -2, -1):
+        size = np.abs(even).max(axis=axis, keepdims=True, initial=0.0)
+        even = even / np.where(size > 0, size, 1.0)
+    return _rcond(even, inverses(even))
 
 
 def inverses(matrix: Array) -> Array:

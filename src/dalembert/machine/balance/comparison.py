@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.answer.answer import Remade
 from dalembert.answer.column import Axes, Column, Scale
 from dalembert.arrays import Array, Tree
@@ -81,7 +80,4 @@ def values_of(s: Shaking) -> dict[str, Array]:
     drive = balanced_drive(r)
     torque = {} if drive is None else {"torque": r.effort(drive)}
     out = dict(zip(("force", "moment"), s.parts["inertia"], strict=True)) | torque
-    carried = PART * float(sizes(r)["force"].max(initial=0.0))  # an effort moves loads too
-    floors = {"force": s.floor("force"), "moment": s.floor("moment")}
-    floors["torque"] = max(floors["moment"], carried * r.compiled.layout.length)
-    return {name: v if np.abs(v).max(initial=0.0) > floors[name] else 0 * v for name, v in out.items()}
+    return {name: v if np.abs(v).max(initial=0.0) > s.floor(name) else 0 * v for name, v in out.items()}
