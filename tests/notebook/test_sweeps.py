@@ -104,6 +104,20 @@ def test_the_ends_of_what_friction_leaves_open_are_optimized_one_by_one() -> Non
     assert min(ends) < max(ends) * 0.99
 
 
+def test_without_friction_both_ends_are_the_effort_in_every_expression() -> None:
+    """A name alone, in an expression and in an aim; a kernel refuses each by the same sentence."""
+    m, path = da.four_bar(positions=3), "loads.torque.value"
+    effort = da.solve(m)["effort.O2"]
+    for text in ("effort.O2.low", "2*effort.O2.low - effort.O2.high"):
+        assert da.solve(m)[text] == pytest.approx(effort)
+        with pytest.raises(da.ModelError, match=r"effort\.O2\.\w+ is not compiled; use da"):
+            da.compile(m, [path], outputs=[text])
+        peaks = [
+            da.optimize(m, {path: (1.0, 2.0)}, f"peak({aim})", starts=2).value for aim in (text, "effort.O2")
+        ]
+        assert peaks[0] == pytest.approx(peaks[1], rel=1e-6)
+
+
 def test_a_sweep_is_labelled_with_units() -> None:
     s = da.sweep(FOUR_BAR, COUPLER, [2 * LBF, 4 * LBF], positions=3, outputs=["effort.O2", "reaction.A"])
     si, of_file = s.to_xarray(), s.to_xarray("file")

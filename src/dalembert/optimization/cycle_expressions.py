@@ -17,9 +17,8 @@ import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.over_positions import cycle_slope, reduce_cycle
-from dalembert.analysis.result.named_quantities import file_paths, quantity, quantity_names
+from dalembert.analysis.result.named_quantities import quantity, quantity_names, quantity_tree
 from dalembert.analysis.result.quantity_catalogue import CATALOGUE
-from dalembert.analysis.result.quantity_expressions import parse_quantity
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
@@ -186,9 +185,8 @@ def cycle_functions(smooth: bool = False) -> Functions:
 
 def cycle_tree(text: str, r: Result) -> Tree:
     """The tree of an expression of the quantities, parameters and numbers of the file of an analysed mechanism."""
-    m = r.mechanism
     quantity(r, text)  # raises ModelError for vectors and unlike quantities
-    tree = parse_quantity(text, [*quantity_names(r), *m.parameters, *file_paths(m, text)], "quantity")
+    tree = quantity_tree(r, text, quantity_names(r))
     if not names_in(tree):
         raise ModelError(f"{text!r} names no quantity", "write one like range(slide.G)")
     return tree

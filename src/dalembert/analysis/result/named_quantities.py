@@ -33,7 +33,7 @@ from dalembert.errors import ModelError
 from dalembert.machine.design_numbers import things_of
 from dalembert.model.links.link import CENTER
 from dalembert.model.paths import value_at
-from dalembert.model.quantities.expression_trees import REDUCTIONS, evaluate, names_in, numpy_functions
+from dalembert.model.quantities.expression_trees import REDUCTIONS, Tree, evaluate, names_in, numpy_functions
 from dalembert.model.quantities.parameters import Parameters
 from dalembert.units import KINDS
 from dalembert.wording import closest
@@ -237,7 +237,7 @@ def evaluated(
 ) -> tuple[Numeric, str]:
     """Value and kind of an expression of quantities and parameters, on numbers or on nodes."""
     parameters: Parameters = r.mechanism.parameters
-    tree = parse_quantity(text, [*names, *parameters, *file_paths(r.mechanism, text)], what)
+    tree = quantity_tree(r, text, names, what)
     check_reductions(tree, functions)
     parts = {name: _number(r, name, names) for name in names_in(tree)}
     known = {
@@ -248,6 +248,16 @@ def evaluated(
     with np.errstate(all="ignore"):
         value = evaluate(tree, {name: q.values[()] for name, q in parts.items()}, functions)
     return value, kind_of(tree, lambda name: parts[name].kind, parameters) or "number"
+
+
+def quantity_tree(r: HasQuantities, text: str, names: Sequence[str], what: str = "quantity") -> Tree:
+    """The tree of an expression of quantities, also the bounds of those without friction, parameters and numbers of
+    the file."""
+    bounds = [
+        f"{name}.{end}" for name in names for end in BOUNDS if end in CATALOGUE[name.partition(".")[0]].rates
+    ]
+    known = [*names, *bounds, *r.mechanism.parameters, *file_paths(r.mechanism, text)]
+    return parse_quantity(text, known, what)
 
 
 def file_paths(m: Mechanism, text: str) -> list[str]:
