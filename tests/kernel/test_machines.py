@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from tests.kernel.comparing import changed, difference, every_number, general
 from tests.kernel.machines import KINDS, four_bar, four_bar_tree
 
 TOLERANCE = 1e-10
+MODELS = Path(__file__).parents[1] / "machine" / "models"
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -268,6 +270,24 @@ def test_what_redundant_constraints_leave_open_is_refused_with_its_reason() -> N
     ):
         da.compile(m, outputs=["reaction.A2.magnitude", "angle.rocker.speed"])
     _same_where_redundant(m)
+
+
+@pytest.mark.parametrize(("coefficient", "status"), [(0.385, "self_locking"), (9.0, "jammed")])
+def test_a_joint_that_shares_its_load_is_not_compiled_where_friction_locks(
+    coefficient: float, status: str
+) -> None:
+    """The lever of a brake on two pins at one place; the drum turns so that the shoe holds it, or locks."""
+    tree = da.load(MODELS / "block-brake-with-a-short-shoe.yaml").to_tree()
+    tree["joints"]["twin"] = {"type": "pin", "links": ["ground", "lever"], "at": ["L", "L"]}
+    tree["joints"]["S"]["friction"]["coefficient"] = coefficient
+    tree["drives"]["D"]["speed"] = "5 rad/s"
+    tree["loads"]["put"] = {"type": "couple", "on": "drum", "value": 12.0}
+    m, path = da.mechanism(tree), "loads.P.value.1"
+    assert da.dynamics(m).status == (status,)
+    assert da.compile(m, [path]).outputs == ("effort.D", "reaction.D", "reaction.S")
+    for of in ("L", "twin"):
+        with pytest.raises(da.ModelError, match=rf"2\*reaction.{of}.x cannot be compiled: constraints are"):
+            da.compile(m, [path], [f"2*reaction.{of}.x"])
 
 
 def _same_where_redundant(m: da.Mechanism) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
@@ -65,8 +66,10 @@ class Trace:
             return tuple(names)
         rigid = {name: joint.model_copy(update={"stiffness": None}) for name, joint in m.joints.items()}
         r = at_schedule(m.model_copy(update={"joints": rigid}), self.course.schedule, self.inertia)
-        here = np.array(r.status) == "redundant"
-        open_ = [name for name in names if np.isnan(quantity(r, name).values[here]).any()]
+        here = np.isin(r.status, ("redundant", "self_locking"))
+        shared = "|".join(re.escape(j) for j in r.joints if not here.any() and not r.unique(j).all())
+        named = re.compile(rf"\breaction(_moment)?\.({shared})(?![\w-])" if shared else "(?!)")
+        open_ = [n for n in names if np.isnan(quantity(r, n).values[here]).any() or named.search(n)]
         if open_ and outputs is not None:
             raise ModelError(
                 f"{' and '.join(open_)} cannot be compiled: constraints are redundant, and statics alone does not "
