@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,9 @@ import dalembert as da
 from dalembert.analysis.batch.careful_path import analyse_design
 from dalembert.analysis.batch.tracing.course import in_mode
 from dalembert.analysis.batch.tracing.symbolic_model import with_numbers
-from dalembert.bundled import cases
+from dalembert.analysis.result.joint_freedoms import full_pose
+from dalembert.bundled import cases, examples
+from dalembert.core.layout import Pose
 from tests.kernel.comparing import changed, difference, every_number
 
 GOVERNOR = da.load(cases()["gov-14-hartnell-governor"])
@@ -79,34 +82,65 @@ def test_the_mode_is_written_as_places_of_the_links(m: da.Mechanism) -> None:
     tree.pop("assembly", None)
     bare = da.mechanism(tree)
     r = da.solve(bare)
-    kept = in_mode(bare, r.compiled, r.point_array[0], r.turn_array[0])
+    kept = in_mode(bare, r.compiled, full_pose(r, 0))
     for link in r.links:
         assert kept.assembly[link] == pytest.approx((*r.position(link)[0], r.angle(link)[0]), abs=1e-12)
 
 
 def four_bar() -> da.Mechanism:
-    tree = da.four_bar().to_tree()
-    tree.pop("assembly")
-    return da.mechanism(tree)
+    return bare(da.four_bar())
 
 
 def test_what_the_file_states_stays_and_so_does_what_begins_elsewhere() -> None:
     m, stated = four_bar(), da.four_bar()
     r = da.solve(m)
-    pose = r.point_array[0], r.turn_array[0]
-    assert in_mode(stated, r.compiled, *pose) is stated
-    assert in_mode(m, r.compiled, np.full((3, 2), np.nan), pose[1]) is m
-    kept = in_mode(m.with_values({"links.coupler.mass": 3.0}), r.compiled, *pose)
+    assert in_mode(stated, r.compiled, full_pose(r, 0)) is stated
+    lost = Pose(np.full((4, 2), np.nan), full_pose(r, 0).turn, full_pose(r, 0).rotation)
+    assert in_mode(m, r.compiled, lost) is m
+    kept = in_mode(m.with_values({"links.coupler.mass": 3.0}), r.compiled, full_pose(r, 0))
     assert list(kept.assembly) == list(r.links)
     assert da.solve(kept).force_array == pytest.approx(
         da.solve(m.with_values({"links.coupler.mass": 3.0})).force_array
     )
-    for other in (da.rssr(), da.planetary_train()):
-        tree = other.to_tree()
-        tree.pop("assembly", None)
-        bare = da.mechanism(tree)
-        result = da.solve(bare, positions=3)
-        assert in_mode(bare, result.compiled, result.point_array[0], result.turn_array[0]) is bare
+    train = bare(da.planetary_train())
+    r = da.solve(train, positions=3)
+    assert in_mode(train, r.compiled, full_pose(r, 0)) is train
+
+
+def bare(m: da.Mechanism) -> da.Mechanism:
+    tree = m.to_tree()
+    tree.pop("assembly", None)
+    return da.mechanism(tree)
+
+
+def test_in_space_designs_keep_the_mode_of_the_file(tmp_path: Path) -> None:
+    """A platform on six legs drawn far from where it stands: drawn again for an axis of a leg that is turned by 11 deg,
+    it would hang below its base."""
+    file = tmp_path / "hexapod.yaml"
+    file.write_text(examples()["hexapod"].read_text().replace("axis: [x, y, 1]", "axis: [1, 0, 0]"))
+    m = da.load(file)
+    turned = {f"joints.S_6.axis.{k}": x for k, x in enumerate((0.87847674, -0.47778512))}
+    names = ["point.platform.P", "reaction.B_6"]
+    k = da.compile(m, list(turned), names, lanes=1)
+    design = with_numbers(m, k.trace.numbers, list(turned.values()))
+    assert da.solve(design)["point.platform.P"][0, 2] == pytest.approx(-0.45)
+    b, kept = k([list(turned.values())]), da.solve(k.trace.course.in_mode(design))
+    for name in names:
+        assert kept[name] == pytest.approx(b.value(name)[0], rel=1e-9, abs=1e-9)
+    assert kept["point.platform.P"][0, 2] == pytest.approx(0.55)
+    (path, x), *_ = turned.items()
+    leg: Any = m.joints["S_6"]
+    values = [leg.axis[0], x]
+    swept, b = da.sweep(m, path, values, outputs=names), da.compile(m, [path], names, lanes=1)([[x]])
+    assert swept["reaction.B_6"][1] == pytest.approx(b.value("reaction.B_6")[0], rel=1e-9)
+
+
+def test_a_bar_between_balls_which_may_spin_is_given_no_pose() -> None:
+    m = bare(da.rssr())
+    r = da.solve(m, positions=3)
+    kept = in_mode(m, r.compiled, full_pose(r, 0))
+    assert [*kept.assembly] == [link for link in r.links if link != "rod"]
+    assert da.solve(kept, positions=3).force_array == pytest.approx(r.force_array, rel=1e-9)
 
 
 @pytest.mark.parametrize("seed", [3, 4, 5])

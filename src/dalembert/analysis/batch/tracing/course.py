@@ -10,18 +10,18 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.algebra import plane
 from dalembert.analysis.batch.over_positions import is_cycle
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import SPEED, TIME, counted_coordinates, parts
 from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.positions import Positions, positions
+from dalembert.analysis.result.joint_freedoms import full_pose, link_poses
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.overflow import size_sentence
 from dalembert.arrays import Array, Tree
 from dalembert.core.friction.contact_equations import bearing
-from dalembert.core.layout import Pose
-from dalembert.core.position.first_pose_plane import Guess, phase_rows
+from dalembert.core.layout import Idle, Pose
+from dalembert.core.position.first_pose_plane import phase_rows
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
 
@@ -70,7 +70,7 @@ class PositionPath:
     def pose(self) -> Pose:
         """Its poses, NaN where it does not close."""
         if self.result is not None:
-            return _poses_with_ground(self.result)
+            return full_pose(self.result)
         path = self.followed.path
         assert path is not None
         lost = ~path.reached
@@ -81,7 +81,7 @@ class PositionPath:
 
     def in_mode(self, m: Mechanism) -> Mechanism:
         """A design in the assembly mode of this one."""
-        return in_mode(m, self.followed.compiled, self.pose.point[0, :-1], self.pose.turn[0, :-1])
+        return in_mode(m, self.followed.compiled, self.pose.at(0))
 
     @cached_property
     def first(self) -> int:
@@ -150,30 +150,22 @@ def contact_keys(c: Compiled) -> list[tuple[str, str]]:
     return keys
 
 
-def _poses_with_ground(result: Result) -> Pose:
-    """Poses of a result, with those of the ground."""
-    point = np.pad(result.point_array, ((0, 0), (0, 1), (0, 0)))
-    return Pose(point, *result.compiled.layout.algebra.with_ground(result.turn_array, result.rotation_array))
-
-
 def in_mode_of(m: Mechanism, nominal: Result, positions: Any = None) -> Mechanism:
     """A design in the assembly mode of another one's analysis; as it is where it begins at other positions."""
     if not np.array_equal(m.schedule(positions).position[:1], nominal.schedule.position[:1]):
         return m
-    return in_mode(m, nominal.compiled, nominal.point_array[0], nominal.turn_array[0])
+    return in_mode(m, nominal.compiled, full_pose(nominal, 0))
 
 
-def in_mode(m: Mechanism, like: Compiled, place: Array, turn: Array) -> Mechanism:
-    """A design with the assembly mode of another, whose links have the places (L, 2) and angles (L,) at the first
-    position of both.
+def in_mode(m: Mechanism, like: Compiled, pose: Pose) -> Mechanism:
+    """A design with the assembly mode of another, whose links have a pose (L+1, ...) at the first position of both.
 
-    As it is where its file states an assembly, in space, and where phases or turns are counted from the first pose.
+    As it is where its file states an assembly, and where phases or turns are counted from the first pose. A bar between
+    two balls, which may spin, has no pose of its own.
     """
-    if m.assembly or not isinstance(like.guess, Guess) or not np.isfinite(place).all():
+    constraints = like.layout.constraints
+    if m.assembly or not np.isfinite(pose.point).all() or like.counts or phase_rows(constraints).size:
         return m
-    if like.counts or phase_rows(like.layout.constraints).size:
-        return m
-    reference = like.layout.reference
-    origins = place - plane.rotate(plane.rotation(turn), reference[:-1]) + reference[-1]
-    poses = ((*at, angle) for at, angle in zip(origins.tolist(), turn.tolist(), strict=True))
-    return m.model_copy(update={"assembly": dict(zip(like.links, poses, strict=True))})
+    idle = {like.links[k] for f in constraints.families if isinstance(f, Idle) for k in f.j}
+    poses = {link: at for link, at in link_poses(like, pose).items() if link not in idle}
+    return m.model_copy(update={"assembly": poses})

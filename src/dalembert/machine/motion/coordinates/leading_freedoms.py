@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.result.joint_freedoms import freedom_motion, full_pose
+from dalembert.analysis.result.joint_freedoms import freedom_motion, full_pose, link_poses
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.core.constraints import rates, system
@@ -23,7 +22,6 @@ from dalembert.machine.motion.equation import DEAD_CENTRE, Equation, StoppedErro
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import EventCondition, Value
 from dalembert.model import Mechanism, Schedule
-from dalembert.model.assembly import SpacePose
 from dalembert.model.drives.drives import Drive
 
 BESIDE = (-1e-4, -1e-7, 1e-8, 1e-6, 1e-4)
@@ -98,25 +96,9 @@ def lead(m: Mechanism, r: Result, chosen: list[int]) -> tuple[Mechanism, Array]:
             drives[name] = drive.model_copy(update={"position": value})
         else:
             drives[f"{joint} {freedom}"] = Drive(joint=joint, freedom=freedom, position=value, speed=1.0)
-    return m.model_copy(update={"drives": drives, "assembly": poses_of_links(r)}), np.array(at)
-
-
-def poses_of_links(r: Result) -> dict[str, Any]:
-    """Poses of all links at the last position."""
-    c, pose = r.compiled, full_pose(r, slice(-1, None))
-    g, out = c.layout.algebra, dict[str, Any]()
-    origin = pose.point - g.rotate(pose.rotation, c.layout.reference)[...] + c.layout.reference[-1]
-    for k, link in enumerate(c.links):
-        x = tuple(float(v) for v in origin[0, k])
-        if g.d == 2:
-            out[link] = (*x, float(pose.turn[0, k]))
-            continue
-        from scipy.spatial.transform import Rotation
-
-        turn = Rotation.from_matrix(pose.rotation[0, k].reshape(3, 3)).as_rotvec()
-        angle = float(np.linalg.norm(turn))
-        out[link] = SpacePose(x, tuple(turn / angle) if angle else (0.0, 0.0, 1.0), angle)
-    return out
+    return m.model_copy(
+        update={"drives": drives, "assembly": link_poses(r.compiled, full_pose(r, -1))}
+    ), np.array(at)
 
 
 @dataclass

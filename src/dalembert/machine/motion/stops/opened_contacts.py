@@ -14,13 +14,12 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.result.joint_freedoms import full_pose
+from dalembert.analysis.result.joint_freedoms import full_pose, link_poses
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.core.constraints import measure
 from dalembert.errors import ModelError
 from dalembert.machine.motion.actuation import Actuation
-from dalembert.machine.motion.coordinates.leading_freedoms import poses_of_links
 from dalembert.machine.motion.stops.gap_contacts import GapContact, contacts_of
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import Drive
@@ -50,7 +49,9 @@ def opened(m: Mechanism, moves: Actuation) -> tuple[Mechanism, Actuation] | None
             contacts.append(contact)
         if joint in driven and wheel:
             drives[f"{joint} slip"] = _gap_drive(joint, "slip", 0.0)
-    opened_m = opened_m.model_copy(update={"drives": drives, "assembly": poses_of_links(start)})
+    opened_m = opened_m.model_copy(
+        update={"drives": drives, "assembly": link_poses(start.compiled, full_pose(start, -1))}
+    )
     return _placed(opened_m, moves, start, count, contacts)
 
 
