@@ -18,7 +18,7 @@ from dalembert.analysis.compile.load_arrays import joint_resistances
 from dalembert.analysis.compile.space_contacts import KINDS as SPACE_FRICTION
 from dalembert.arrays import Array, Ints
 from dalembert.core.friction.contact_equations import Contacts
-from dalembert.core.layout import Idle, Rows
+from dalembert.core.layout import Idle, Layout, Pose, Rows
 from dalembert.core.position.first_pose_plane import Guess
 from dalembert.core.position.first_pose_space import PoseGuess
 from dalembert.errors import ModelError
@@ -258,3 +258,20 @@ class SpaceJoints(_Joints):
             }
             hinges.append(pair_table.hinge(joint, self.ends[k], self.geometries[k], drives))
         return PoseGuess(rotation, point, tuple(hinges), axis, angle)
+
+
+def stated_poses(layout: Layout, links: Sequence[str], pose: Pose) -> dict[str, Any]:
+    """A pose (L+1, ...) as an ``assembly`` states it: of the origins of the links, in ground's axes."""
+    g, out = layout.algebra, dict[str, Any]()
+    origin = pose.point - g.rotate(pose.rotation, layout.reference) + layout.reference[-1]
+    for k, link in enumerate(links):
+        x = tuple(origin[k].tolist())
+        if g.d == 2:
+            out[link] = (*x, float(pose.turn[k]))
+            continue
+        from scipy.spatial.transform import Rotation
+
+        turn = Rotation.from_matrix(pose.rotation[k].reshape(3, 3)).as_rotvec()
+        angle = float(np.linalg.norm(turn))
+        out[link] = SpacePose(x, tuple(turn / angle) if angle else (0.0, 0.0, 1.0), angle)
+    return out

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,10 +12,8 @@ from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.equilibrium import with_ground
 from dalembert.core.layout import Pose, Rows
 from dalembert.errors import ModelError
-from dalembert.model.assembly import SpacePose
 
 if TYPE_CHECKING:
-    from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.result.result import Result
 
 
@@ -24,23 +22,6 @@ def full_pose(result: Result, part: Index = slice(None)) -> Pose:
     turn, rotation = result.turn_array[part], result.rotation_array[part]
     g = result.compiled.layout.algebra
     return Pose(with_ground(result.point_array[part]), *g.with_ground(turn, rotation))
-
-
-def link_poses(c: Compiled, pose: Pose) -> dict[str, Any]:
-    """A pose (L+1, ...) as an ``assembly`` states it: of the origins of the links, in ground's axes."""
-    g, out = c.layout.algebra, dict[str, Any]()
-    origin = pose.point - g.rotate(pose.rotation, c.layout.reference) + c.layout.reference[-1]
-    for k, link in enumerate(c.links):
-        x = tuple(origin[k].tolist())
-        if g.d == 2:
-            out[link] = (*x, float(pose.turn[k]))
-            continue
-        from scipy.spatial.transform import Rotation
-
-        turn = Rotation.from_matrix(pose.rotation[k].reshape(3, 3)).as_rotvec()
-        angle = float(np.linalg.norm(turn))
-        out[link] = SpacePose(x, tuple(turn / angle) if angle else (0.0, 0.0, 1.0), angle)
-    return out
 
 
 def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array, Array]:

@@ -12,10 +12,11 @@ import numpy as np
 
 from dalembert.analysis.batch.over_positions import is_cycle
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.joint_rows import stated_poses
 from dalembert.analysis.compile.pose_loads import SPEED, TIME, counted_coordinates, parts
 from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.positions import Positions, positions
-from dalembert.analysis.result.joint_freedoms import full_pose, link_poses
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.overflow import size_sentence
 from dalembert.arrays import Array, Tree
@@ -167,5 +168,5 @@ def in_mode(m: Mechanism, like: Compiled, pose: Pose) -> Mechanism:
     if m.assembly or not np.isfinite(pose.point).all() or like.counts or phase_rows(constraints).size:
         return m
     idle = {like.links[k] for f in constraints.families if isinstance(f, Idle) for k in f.j}
-    poses = {link: at for link, at in link_poses(like, pose).items() if link not in idle}
+    poses = {link: at for link, at in stated_poses(like.layout, like.links, pose).items() if link not in idle}
     return m.model_copy(update={"assembly": poses})

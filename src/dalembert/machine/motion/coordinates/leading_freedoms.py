@@ -11,8 +11,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.compile.joint_rows import stated_poses
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.result.joint_freedoms import freedom_motion, full_pose, link_poses
+from dalembert.analysis.result.joint_freedoms import freedom_motion, full_pose
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.core.constraints import rates, system
@@ -97,7 +98,7 @@ def lead(m: Mechanism, r: Result, chosen: list[int]) -> tuple[Mechanism, Array]:
         else:
             drives[f"{joint} {freedom}"] = Drive(joint=joint, freedom=freedom, position=value, speed=1.0)
     return m.model_copy(
-        update={"drives": drives, "assembly": link_poses(r.compiled, full_pose(r, -1))}
+        update={"drives": drives, "assembly": stated_poses(r.compiled.layout, r.links, full_pose(r, -1))}
     ), np.array(at)
 
 

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
+from dalembert.analysis.compile.joint_rows import stated_poses
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.result.joint_freedoms import full_pose, link_poses
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.core.constraints import measure
@@ -50,7 +51,10 @@ def opened(m: Mechanism, moves: Actuation) -> tuple[Mechanism, Actuation] | None
         if joint in driven and wheel:
             drives[f"{joint} slip"] = _gap_drive(joint, "slip", 0.0)
     opened_m = opened_m.model_copy(
-        update={"drives": drives, "assembly": link_poses(start.compiled, full_pose(start, -1))}
+        update={
+            "drives": drives,
+            "assembly": stated_poses(start.compiled.layout, start.links, full_pose(start, -1)),
+        }
     )
     return _placed(opened_m, moves, start, count, contacts)
 
