@@ -339,3 +339,47 @@ def test_a_lifted_linkage_is_compiled_as_far_as_it_is_determined() -> None:
     assert r.ok.all()
     assert r.reaction("A")[0] == pytest.approx(wanted.reaction("A"), rel=1e-10, abs=1e-9)
     assert r.effort("O2")[0] == pytest.approx(marked.effort("O2"), rel=1e-9)
+
+
+def test_no_motion_leads_through_lines_that_are_parallel() -> None:
+    """A block in a guide and in a slot of a disc, whose line turns by a quarter: a guide between both lines is parallel
+    to the slot on the way, and the block would have to pass through infinity; turned by half a turn it is the same."""
+    m = da.mechanism(
+        {
+            "links": {
+                "ground": {"points": {"O": [0, 0], "G": [0.1, 0.05]}},
+                "disc": {"points": {"O": [0, 0]}},
+                "block": {"points": {"F": [0, 0]}, "mass": 1.0},
+            },
+            "joints": {
+                "O": {"type": "pin", "links": ["ground", "disc"]},
+                "guide": {
+                    "type": "slider",
+                    "links": ["ground", "block"],
+                    "at": ["G", "F"],
+                    "direction": "30 deg",
+                },
+                "slot": {
+                    "type": "slot",
+                    "links": ["disc", "block"],
+                    "at": ["O", "F"],
+                    "direction": "-90 deg",
+                },
+            },
+            "drives": {"O": {"position": ["0 deg", "90 deg"], "speed": "1 rad/s"}},
+        }
+    )
+    path = "joints.guide.direction"
+    beyond, reached = [135, 100, -30, 150], [30, 45, -150, 200, 210]
+    values = np.radians([*beyond, *reached])
+    b = da.compile(m, [path], ["reaction.slot"], lanes=1)(values[:, None])
+    assert b.status[: len(beyond)].tolist() == [["ok", "not_assembled"]] * len(beyond)
+    assert b.ok[len(beyond) :].all()
+    for k, value in enumerate(values):
+        r = da.dynamics(m.with_values({path: float(value)}))
+        assert list(r.status) == list(b.status[k])
+        assert b.value("reaction.slot")[k] == pytest.approx(r.reaction("slot"), nan_ok=True, abs=1e-12)
+    assert (
+        da.compile(m, [path], ["reaction.slot"], "peak")(values[:, None]).ok.tolist()
+        == [False] * 4 + [True] * 5
+    )

@@ -128,6 +128,7 @@ class Traced:
     graph: Graph
     scale: Array
     square: list[Node]  # of the speed of a turning frame
+    pivots: list[Node]  # of one sign along a motion
 
     @cached_property
     def residual(self) -> Node:
@@ -212,6 +213,7 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
         graph=g,
         scale=layout.wrench_scale,
         square=square,
+        pivots=placed.pivots,
     )
 
 

@@ -44,12 +44,13 @@ def redone(
     undecided: Flags,
     answer: Sides,
 ) -> None:
-    """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
+    """Put the general executor's answer for design ``d`` in its place: where it is undecided or no motion leads there,
+    or all of it reduced."""
     code = answer.code
     codes, result = analyse_design(k.mechanism, k.trace.numbers, values, course, k.trace.inertia)
     if k.trace.redundant:  # the outputs there are unique
         codes = np.where(codes == CODES.index("redundant"), np.uint8(0), codes)
-    here = np.ones(len(codes), bool) if k.reduce else undecided
+    here = undecided | (codes == CODES.index("not_assembled")) | bool(k.reduce)
     for rates in (answer.rates, answer.after_rates):
         for rate in rates.values():
             rate[d][... if k.reduce else here] = np.nan

@@ -27,13 +27,15 @@ class PlacedPose:
     """Poses of all links as nodes, and conditions for their validity.
 
     ``open``: below zero the linkage does not close; ``doubt``: below zero the general executor decides; ``flips``:
-    a group changes its branch along the motion.
+    a group changes its branch along the motion. ``pivots``: zero where two lines that meet are parallel, so that no
+    motion leads from one sign to the other.
     """
 
     pose: Pose
     open: list[Node] = field(default_factory=list)
     doubt: list[Node] = field(default_factory=list)
     flips: bool = False
+    pivots: list[Node] = field(default_factory=list)
 
     def root(self, graph: Graph, square: Scalar, scale: Scalar) -> Scalar:
         """Square root of a node that is negative where the linkage does not close; its inverse is computed with it."""
@@ -226,6 +228,8 @@ class Parts:
 
     def regular(self, det: Scalar) -> None:
         self.add_doubt(det * det - DEAD)
+        if isinstance(det, Node) and det.level & POSITION:
+            self.out.pivots.append(det)
 
     def choose_rotation(self, rotation: Callable[[Scalar], Pair], x: int, y: int) -> Pair:
         """The rotation of y in x, of two candidates, that the known motion has; ``sign`` is kept for the

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -43,6 +43,7 @@ from dalembert.core.layout import Family, Gearing, Idle, Layout, Pose
 from dalembert.core.linear import PseudoInverse
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, node, trace_array
+from dalembert.kernel.position.rigid_parts import DEAD
 from dalembert.kernel.trace import Traced, TracedProblem, trace
 from dalembert.model import Mechanism, Schedule
 
@@ -154,6 +155,8 @@ def trace_analysis(
     )
     motion = drives.position, drives.speed, drives.acceleration
     traced = _run(problem, c, decided=moves or solved is not None)
+    if solved is None and not (moves or followed):
+        traced.doubt.extend(_on_one_side(traced.pivots))
     catalogue = Catalogue(
         graph, replace(c, forcing=traced.forcing, contacts=problem.contacts), traced, motion, inputs, inertia
     )
@@ -351,6 +354,16 @@ def _run(problem: TracedProblem, c: Compiled, decided: bool) -> Traced:
         if released_joints(c.mechanism):
             traced.doubt.append(-1.0 - abs(traced.effort[0]))
     return traced
+
+
+def _on_one_side(pivots: Sequence[Node]) -> Iterator[Node]:
+    """Negative where a pivot has the other sign than along the file's motion: only the motion of that design tells
+    whether it leads there, or would have to pass through infinity."""
+    for pivot in pivots:
+        (values,) = pivot.graph.evaluate([pivot], {})
+        signs = np.sign(values[values * values > DEAD])
+        if len(np.unique(signs)) == 1:
+            yield float(signs[0]) * pivot
 
 
 def _through_friction(c: Compiled) -> ModelError:
