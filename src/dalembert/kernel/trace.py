@@ -128,7 +128,7 @@ class Traced:
     graph: Graph
     scale: Array
     square: list[Node]  # of the speed of a turning frame
-    pivots: list[Node]  # of one sign along a motion
+    pivots: tuple[Node, ...] = ()  # of one sign along a motion
 
     @cached_property
     def residual(self) -> Node:
@@ -146,7 +146,7 @@ def trace(p: TracedProblem) -> Traced:
         placed.open.append(_closed(p, layout, placed.pose, target))
     if p.phased:
         gaps = _centre_gaps(p, layout, placed)
-    return _trace_at(p, layout, placed, [*gaps, *decided])
+    return replace(_trace_at(p, layout, placed, [*gaps, *decided]), pivots=tuple(placed.pivots))
 
 
 def trace_at(p: TracedProblem, pose: Pose) -> Traced:
@@ -213,7 +213,6 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
         graph=g,
         scale=layout.wrench_scale,
         square=square,
-        pivots=placed.pivots,
     )
 
 

@@ -155,8 +155,6 @@ def trace_analysis(
     )
     motion = drives.position, drives.speed, drives.acceleration
     traced = _run(problem, c, decided=moves or solved is not None)
-    if solved is None and not (moves or followed):
-        traced.doubt.extend(_on_one_side(traced.pivots))
     catalogue = Catalogue(
         graph, replace(c, forcing=traced.forcing, contacts=problem.contacts), traced, motion, inputs, inertia
     )
@@ -353,6 +351,8 @@ def _run(problem: TracedProblem, c: Compiled, decided: bool) -> Traced:
         traced.doubt.extend(node(problem.graph, margin) for margin in margins)
         if released_joints(c.mechanism):
             traced.doubt.append(-1.0 - abs(traced.effort[0]))
+        if not problem.phased:  # where the motion is followed it tells itself
+            traced.doubt.extend(_on_one_side(traced.pivots))
     return traced
 
 
