@@ -15,6 +15,8 @@ from dalembert.analysis.batch.tracing.symbolic_model import with_numbers
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.bundled import cases, examples
 from dalembert.core.layout import Pose
+from dalembert.machine.motion.coded.shared_motion import SharedMotion
+from dalembert.machine.motion.simulation import motion_of
 from tests.kernel.comparing import changed, difference, every_number
 
 GOVERNOR = da.load(cases()["gov-14-hartnell-governor"])
@@ -71,6 +73,27 @@ def test_a_study_and_an_optimum_stand_as_the_file_does_compiled_or_one_by_one() 
         assert np.abs(best.after.angle("bell")).max() < 0.3
         assert da.solve(best.mechanism).angle("bell") == pytest.approx(best.after.angle("bell"), abs=1e-9)
         assert abs(best.value) < abs(da.solve(GOVERNOR).unknown_load("spring")).max()
+
+
+def test_motions_of_designs_begin_as_that_of_the_file_compiled_or_one_by_one() -> None:
+    """The governor at rest, its spring left out, falls; designs of a study are simulated as they were computed."""
+    tree = GOVERNOR.to_tree()
+    for key in ("turning", "answers"):
+        tree.pop(key)
+    tree |= {"loads": {}, "gravity": "standard", "drives": {"axis": {"position": 0.0, "effort": 0.0}}}
+    m, until = da.mechanism(tree), {"until": "0.02 s"}
+    s = da.study(m, {UP: [0.0, 1e-3]}, ["point.bell.B.y"], "final", draw="factorial", simulate=until)
+    ends = s.run()["point.bell.B.y"]
+    assert ends == pytest.approx([0.12, 0.12], abs=1e-4)
+    for k, end in enumerate(ends):
+        one = s.mechanism_of(k)
+        assert da.simulate(one, **until).result.point("bell", "B")[-1, 1] == pytest.approx(end, rel=1e-9)
+        shared = SharedMotion(m, (UP,))
+        motion = motion_of(m.with_values(s.design(k)), "0.02 s", shared=shared)
+        assert motion.result.point("bell", "B")[-1, 1] == pytest.approx(end, rel=1e-9)
+    best = da.optimize(m, {UP: (5e-4, 1e-3)}, "final point.bell.B.y", simulate=until, starts=2)
+    assert best.value == pytest.approx(0.12, abs=1e-4)
+    assert da.simulate(best.mechanism, **until).result.point("bell", "B")[-1, 1] == pytest.approx(best.value)
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, number
 from dalembert.arrays import Array, Flags
 from dalembert.bounds import require
 from dalembert.errors import ModelError, errors_at
+from dalembert.machine.motion.coded.shared_motion import SharedMotion
 from dalembert.machine.motion.many.simulation_plan import read_motion
 from dalembert.machine.whole_cycle import over_a_turn
 from dalembert.model import AtPositions, Mechanism, ModelOrPath, as_mechanism
@@ -296,7 +297,10 @@ def optimum_of(
 ) -> Optimum:
     m, values = p.mechanism, p.numbers(u)
     best = m.with_values({n.path: float(v) for n, v in zip(varied, values, strict=True)})
-    best = best if p.motion else in_mode_of(best, p.nominal_answer, p.requested)
+    if p.motion:
+        best = SharedMotion(p.mechanism, p.vary).in_mode(best)
+    else:
+        best = in_mode_of(best, p.nominal_answer, p.requested)
     return Optimum(
         mechanism=best,
         numbers=tuple(n.path for n in varied),

@@ -23,6 +23,7 @@ from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
+from dalembert.machine.motion.coded.shared_motion import SharedMotion
 from dalembert.machine.motion.many.simulation_plan import SimulationPlan, read_motion
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.optimization.cycle_expressions import has_reductions, is_single
@@ -182,10 +183,9 @@ class Study:
             )
         if self.motion is not None:
             return make_motion_engine(self.mechanism, self.paths, outputs, reduce, self.motion)
-        options = (self.static, self.positions, self.lanes)
 
         def make(names: Sequence[str] | None, by: str | None) -> Engine:
-            return make_engine(self.mechanism, self.paths, names, by, *options)
+            return make_engine(self.mechanism, self.paths, names, by, self.static, self.positions, self.lanes)
 
         if outputs and any(map(has_reductions, outputs)):
             return with_cycle_numbers(outputs, reduce, self.answer(self.mechanism), make)
@@ -209,8 +209,7 @@ class Study:
             rest = [name for name in self.outputs if name not in known]
             kinds = known | (output_kinds(self.answer(self.mechanism), rest, self.reduce) if rest else {})
             self.cache["kinds"] = {name: kinds[name] for name in self.outputs}
-        stored: dict[str, str] = self.cache["kinds"]
-        return stored
+        return dict(self.cache["kinds"])
 
     @property
     def end_kinds(self) -> dict[str, str]:
@@ -271,7 +270,8 @@ class Study:
     def mechanism_of(self, n: int) -> Mechanism:
         """The mechanism of a design, to be analysed, drawn and saved as any other."""
         one = self.mechanism.with_values(self.design(n))
-        return one if self.motion is not None else in_mode_of(one, self.nominal, self.positions)
+        shared = self.motion and SharedMotion(self.mechanism, self.paths)
+        return shared.in_mode(one) if shared else in_mode_of(one, self.nominal, self.positions)
 
     @cached_property
     def nominal(self) -> Result:

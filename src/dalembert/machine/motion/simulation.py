@@ -322,6 +322,7 @@ def motion_of(
 ) -> Simulation:
     """The motion of ``simulate``; of one design of many by the equation that they have ``shared``."""
     try:
+        m = m if shared is None else shared.in_mode(m)
         prescribed, moves = actuation(m, read_start(m, start))
         whole, acting = opened(prescribed, moves) or (prescribed, moves)
         if shared is not None and acting is moves:
