@@ -75,6 +75,13 @@ def test_a_study_and_an_optimum_stand_as_the_file_does_compiled_or_one_by_one() 
         assert abs(best.value) < abs(da.solve(GOVERNOR).unknown_load("spring")).max()
 
 
+@pytest.mark.parametrize("positions", [None, [0.001, 0.014]])
+def test_a_synthesized_mechanism_stands_as_it_was_found(positions: list[float] | None) -> None:
+    name = "point.bell.B.y"
+    found = da.synthesize(GOVERNOR, {UP: (5e-4, 2e-3)}, {name: [0.12, 0.1185]}, positions, starts=2)
+    assert found.result[name] == pytest.approx(found.found[name], rel=1e-9)
+
+
 def test_motions_of_designs_begin_as_that_of_the_file_compiled_or_one_by_one() -> None:
     """The governor at rest, its spring left out, falls; designs of a study are simulated as they were computed."""
     tree = GOVERNOR.to_tree()

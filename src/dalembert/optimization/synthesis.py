@@ -154,8 +154,9 @@ def synthesize(
     values, place = low + x[best, : len(low)] * (high - low), f.places(x[best])
     error = np.sqrt(2 * cost / len(f.target))
     r = k(values, place)
+    design = mechanism.with_values({n.path: float(v) for n, v in zip(varied, values, strict=True)})
     return Synthesis(
-        mechanism=mechanism.with_values({n.path: float(v) for n, v in zip(varied, values, strict=True)}),
+        mechanism=k.trace.course.in_mode(design),
         numbers=k.numbers,
         values=values,
         nominal=k.nominal,
