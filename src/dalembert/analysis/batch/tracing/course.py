@@ -21,7 +21,7 @@ from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.overflow import size_sentence
 from dalembert.arrays import Array, Tree
 from dalembert.core.friction.contact_equations import bearing
-from dalembert.core.layout import Idle, Pose
+from dalembert.core.layout import Pose
 from dalembert.core.position.first_pose_plane import phase_rows
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
@@ -161,12 +161,12 @@ def in_mode_of(m: Mechanism, nominal: Result, positions: Any = None) -> Mechanis
 def in_mode(m: Mechanism, like: Compiled, pose: Pose) -> Mechanism:
     """A design with the assembly mode of another, whose links have a pose (L+1, ...) at the first position of both.
 
-    As it is where its file states an assembly, and where phases or turns are counted from the first pose. A bar between
-    two balls, which may spin, has no pose of its own.
+    As it is where its file states an assembly, where phases or turns are counted from the first pose, and where a bar
+    between balls may spin, whose drawn pose is that without spin.
     """
     constraints = like.layout.constraints
-    if m.assembly or not np.isfinite(pose.point).all() or like.counts or phase_rows(constraints).size:
+    if m.assembly or not np.isfinite(pose.point).all() or like.counts:
         return m
-    idle = {like.links[k] for f in constraints.families if isinstance(f, Idle) for k in f.j}
-    poses = {link: at for link, at in stated_poses(like.layout, like.links, pose).items() if link not in idle}
-    return m.model_copy(update={"assembly": poses})
+    if phase_rows(constraints).size or constraints.idle.size:
+        return m
+    return m.model_copy(update={"assembly": stated_poses(like.layout, like.links, pose)})
