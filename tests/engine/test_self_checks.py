@@ -16,6 +16,7 @@ from dalembert.analysis.engine.flat_numbers import flat_numbers
 from dalembert.analysis.engine.kept_program import TracedOutputs
 from dalembert.analysis.positions import FARTHEST, positions
 from dalembert.analysis.status.statuses import UNBALANCED, statuses
+from dalembert.core.position.assembly_modes import NEAR
 from dalembert.core.rank import singular_below
 from tests.engine.comparing import counted
 from tests.friction.rough import cycle
@@ -246,3 +247,24 @@ def test_moments_are_compared_with_forces_by_the_length() -> None:
     assert k.moments.tolist() == [False] * forces + [True] * moments + [False, False, True] * (
         loads.size // 3
     )
+
+
+@pytest.mark.parametrize(("part", "known"), [(0.99, True), (1.01, False)])
+def test_given_angles_choose_a_mode_up_to_their_largest_error(
+    part: float, known: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those of two links off by 0.6 and 0.8 of it: beyond it a search decides, to the same pose."""
+    at, choose, chosen = {"drives.O2.position": 0.9}, first_way._by_known_angles, list[Any]()
+
+    def by_known_angles(*of: Any) -> Any:
+        chosen.append(choose(*of))
+        return chosen[-1]
+
+    monkeypatch.setattr(first_way, "_by_known_angles", by_known_angles)
+    monkeypatch.setattr(structures, "STRUCTURES", structures.Structures())
+    m = da.four_bar().with_values(at)
+    right = {link: float(da.statics(m).angle(link)[0]) for link in ("coupler", "rocker")}
+    off = {"coupler": 0.6 * part * NEAR, "rocker": -0.8 * part * NEAR}
+    r = da.statics(m.with_values({f"assembly.{n}": x + off[n] for n, x in right.items()}))
+    assert (chosen[-1] is not None) is known
+    assert {n: r.angle(n)[0] for n in right} == pytest.approx(right)
