@@ -409,7 +409,7 @@ def motions(m: da.Mechanism, r: da.Result, rng: random.Random) -> Findings:
         return
     if not s.energy_residual < AGREES or not s.law_residual < AGREES:
         yield f"simulate: energy {s.energy_residual:.1e}, law {s.law_residual:.1e} without a doubt"
-    many = da.compile_motion(m, "0.05 s", start=start, count=11)()
+    many = da.compile_motion(m, "0.05 s", start=start, count=11, tolerance=1e-12)()
     if many.ok[0] and s.status == "ended":
         ends = np.array([s.position(name)[-1] for name in s.drives])
         if np.abs(ends - many.position[0]).max(initial=0) > NEAR * max(1e-3, np.abs(ends).max(initial=0)):

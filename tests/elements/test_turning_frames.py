@@ -141,7 +141,7 @@ def test_a_wrong_file_is_refused_at_its_line(case: dict[str, str]) -> None:
 
 
 def test_what_has_no_answer_says_why() -> None:
-    """A rod above its pin falls inwards: no speed holds it; one on the axis has no power."""
+    """A rod above its pin falls inwards: no speed holds it."""
     asked = ROD.replace("speed: 8 rad/s", "speed: unknown")
     r = da.statics(da.loads(asked.replace("-40 deg", "[40 deg, -40 deg]")))
     assert r.status == ("no_balance", "ok")
@@ -158,6 +158,18 @@ def test_what_has_no_answer_says_why() -> None:
         da.lifted(da.loads(ROD))
     with pytest.raises(da.ModelError, match="the plane of this mechanism does not turn"):
         _ = da.statics(da.four_bar()).turning_speed
+
+
+def test_centrifugal_forces_of_rounding_have_no_power() -> None:
+    """A rod along the axis, but for the rounding of its angle, and one straight out; a hair off both have a speed."""
+    asked = ROD.replace("speed: 8 rad/s", "speed: unknown")
+    m = da.loads(asked.replace("-40 deg", "[-90 deg, -180 deg, -89.999 deg, -0.001 deg]"))
+    b = da.compile(m, ["links.rod.mass"], ["reaction.O"], lanes=1)
+    answers = [da.statics(m), da.statics(m), da.statics(m, method="careful")]
+    for status in (*(r.status for r in answers), tuple(b([[1.0]]).status[0])):
+        assert status == ("no_balance", "no_balance", "ok", "ok")
+    assert "the centrifugal forces have no power here" in str(answers[0].reasons[0])
+    assert np.isfinite(answers[0].turning_speed).tolist() == [False, False, True, True]
 
 
 def test_energy_in_the_turning_plane_is_constant() -> None:

@@ -147,7 +147,8 @@ def speed_checks(c: Compiled, f: SolvedForces) -> list[Check]:
     def sentence(run: Ints) -> str:
         frame = c.forcing.turning
         assert frame is not None
-        why = "would have to pull towards the axis" if (worst[run] < 0).any() else "have no power here"
+        pulls = (np.isfinite(worst[run]) & (worst[run] < 0)).any()
+        why = "would have to pull towards the axis" if pulls else "have no power here"
         return NO_SPEED.format(drive=c.schedule.names[frame.driven], arc=arc(c, run), why=why)
 
     return [("no_balance", ~(worst >= 0) | ~np.isfinite(worst), sentence)]

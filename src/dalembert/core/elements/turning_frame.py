@@ -14,9 +14,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from dalembert.arrays import Array
+from dalembert.core.branchless import above, where
 from dalembert.core.forcing import Forcing, Inertia, TurningFrame, WrenchSource, total_wrench
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Layout, Pose
+
+POWERLESS = 1e-12
+"""Part of the power of the whole mass at the characteristic length below which that of centrifugal forces is none."""
 
 
 def centrifugal(
@@ -42,7 +46,8 @@ def turning_square(
 ) -> Array:
     """Square of the speed (...): as given, or that at which the effort of a drive is the one given.
 
-    By virtual work at unit speed of that drive, P_0 + W^2 P_1 + effort = 0: negative where no speed balances.
+    By virtual work at unit speed of that drive, P_0 + W^2 P_1 + effort = 0: negative where no speed balances, and not
+    finite where P_1 is rounding beside that of the whole mass at the characteristic length.
     """
     frame = forcing.turning
     assert frame is not None
@@ -50,10 +55,15 @@ def turning_square(
         return frame.square
     sources = {kind: source for kind, source in sources.items() if kind != "turning"}
     v = virtual[..., frame.driven, :-1, :]
-    unit = centrifugal(layout, forcing.inertia, frame, pose, np.ones(1))
+    inertia = forcing.inertia
+    unit = centrifugal(layout, inertia, frame, pose, np.ones(1))
     first, second = (
         (total_wrench(layout, *some) * v).sum(axis=(-2, -1)) for some in (sources.values(), (unit,))
     )
+    heavy = inertia.mass.sum() * layout.length + np.abs(frame.moments).sum() / layout.length
+    turns = layout.freedoms.angular[layout.driven[frame.driven]]
+    limit = POWERLESS * heavy * (layout.length if turns else 1.0)
+    second = where(above(second * second, limit * limit), second, 0.0)
     return np.asarray(-(first + frame.effort) * (1.0 / second))
 
 
