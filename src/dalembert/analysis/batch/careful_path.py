@@ -44,8 +44,8 @@ def redone(
     undecided: Flags,
     answer: Sides,
 ) -> None:
-    """Put the general executor's answer for design ``d`` in its place: where it is undecided or no motion leads there,
-    or all of it reduced."""
+    """Put the general executor's answer for design ``d`` in its place: where it is undecided or out of reach of any
+    motion, or all of it reduced."""
     code = answer.code
     codes, result = analyse_design(k.mechanism, k.trace.numbers, values, course, k.trace.inertia)
     if k.trace.redundant:  # the outputs there are unique

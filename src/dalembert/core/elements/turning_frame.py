@@ -20,7 +20,7 @@ from dalembert.core.geometry import arm
 from dalembert.core.layout import Layout, Pose
 
 POWERLESS = 1e-12
-"""Part of the power of the whole mass at the characteristic length below which that of centrifugal forces is none."""
+"""Part of the power of all mass at the characteristic length below which that of centrifugal forces is none."""
 
 
 def centrifugal(
@@ -47,7 +47,7 @@ def turning_square(
     """Square of the speed (...): as given, or that at which the effort of a drive is the one given.
 
     By virtual work at unit speed of that drive, P_0 + W^2 P_1 + effort = 0: negative where no speed balances, and not
-    finite where P_1 is rounding beside that of the whole mass at the characteristic length.
+    finite where P_1 is rounding beside that of all mass at the characteristic length.
     """
     frame = forcing.turning
     assert frame is not None

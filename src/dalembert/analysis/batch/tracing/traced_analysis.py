@@ -351,14 +351,14 @@ def _run(problem: TracedProblem, c: Compiled, decided: bool) -> Traced:
         traced.doubt.extend(node(problem.graph, margin) for margin in margins)
         if released_joints(c.mechanism):
             traced.doubt.append(-1.0 - abs(traced.effort[0]))
-        if not problem.phased:  # where the motion is followed it tells itself
+        if not problem.phased:  # else the motion is followed
             traced.doubt.extend(_on_one_side(traced.pivots))
     return traced
 
 
 def _on_one_side(pivots: Sequence[Node]) -> Iterator[Node]:
-    """Negative where a pivot has the other sign than along the file's motion: only the motion of that design tells
-    whether it leads there, or would have to pass through infinity."""
+    """Negative where a pivot has the other sign than along the file's motion: the motion of that design decides
+    whether it reaches the position, or would have to pass through infinity."""
     for pivot in pivots:
         (values,) = pivot.graph.evaluate([pivot], {})
         signs = np.sign(values[values * values > DEAD])
