@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.compile.elements.cam_motion import outline
+from dalembert.kernel.graph import Graph
 from dalembert.model.library import template_text
 from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
@@ -141,3 +143,23 @@ def test_a_page_of_a_cam_has_its_outline_and_room_for_it() -> None:
     for one, way in zip(room, ((1, 0), (0, 1), (-1, 0), (0, -1)), strict=True):
         corner = edge[int(np.argmax(edge @ way))]
         np.testing.assert_allclose(out[one["p"]][:, 3], corner @ e, atol=1e-9)
+
+
+def test_a_page_has_the_slopes_of_as_many_curves_as_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first curve's fit where they take exactly as many operations as are allowed, and not one more."""
+    sizes, order = list[int](), Graph.order
+
+    def counted(*of: Any) -> Any:
+        if sys._getframe(1).f_code.co_name == "_gradient":
+            sizes.append(len(order(*of)))
+        return order(*of)
+
+    m = da.four_bar(positions=8)
+    monkeypatch.setattr(Graph, "order", counted)
+    every = page_data(m)
+    assert every["gradient"]["curves"] == [
+        c["row"] for chart in every["views"]["charts"] for c in chart["curves"]
+    ]
+    for allowed, curves in ((sizes[0] - 1, 0), (sizes[0], 1), (sizes[1] - 1, 1), (sizes[1], 2)):
+        monkeypatch.setattr("dalembert.pages.page_data.OPERATIONS", allowed)
+        assert len(page_data(m).get("gradient", {"curves": []})["curves"]) == curves
