@@ -65,6 +65,24 @@ def test_swinging_in_the_turning_plane_is_the_spatial_motion() -> None:
     assert abs(flat.turning_torque[0]) == pytest.approx(abs(space.effort("turn")[0]), rel=1e-9)
 
 
+def test_small_swings_of_the_spatial_model_are_those_of_the_turning_plane() -> None:
+    """About the height that it has at 176 rpm, the turn of the spindle going on; by its equation of motion too."""
+    space = case("GOV-1", drives__turn__speed=176 * RPM)
+    there = {"drives.O": {"position": "unknown", "effort": 0, "range": ["-80 deg", "-10 deg"]}}
+    r, flat = (
+        da.dynamics(space),
+        da.statics(da.loads(PORTER.replace("unknown", "176 rpm")).with_values(there)),
+    )
+    assert r.drive_position("O") == pytest.approx(math.pi / 2 + flat.drive_position("O"), rel=1e-9)
+    swings = da.small_swings(r)
+    assert swings == pytest.approx(da.small_swings(flat), rel=1e-7)
+    off = 1e-6
+    start = {"O": {"position": float(r.drive_position("O")[0]) + off, "speed": 0.0}}
+    held = space.with_values({"drives.O": {"position": 0.0, "effort": 0.0}})
+    s = da.simulate(held, math.pi / swings[0] / 2, start=start)
+    assert s.position("O")[-1] == pytest.approx(r.drive_position("O")[0], abs=1e-3 * off)
+
+
 def racks(**more: float) -> da.Mechanism:
     """Half a spring governor whose arms stay right-angled, its ball in a plane that turns about x = 5 - least."""
     given = {"long": 4.0, "mass": 3 * POUND * 9.80665 / (32.2 * FOOT), "least": 3.0, "lean": 0.0} | more

@@ -181,6 +181,11 @@ def test_a_wheel_beyond_its_friction_has_the_status_slips() -> None:
         "track slips at track = 0 deg: to roll it needs a coefficient of friction of 0.19245 at rest and has 0.1. "
         "Load it more, or let forces move it (simulate), where it slides."
     )
+    floating = da.loads((SLOPE % ("{coefficient: 0.1}", drive)).replace("standard", "none"))
+    assert da.dynamics(floating).reasons[0] == (
+        "track slips at track = 0 deg: nothing presses its links together. Load it, or let forces move it (simulate), "
+        "where it slides."
+    )
     with pytest.raises(
         ModelError, match="whether 'track' slips on its track is not checked in compiled analyses"
     ):

@@ -13,7 +13,7 @@ from dalembert.analysis.friction.friction_status import Check, arc
 from dalembert.analysis.status.brake_verdicts import lifting
 from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Array, Ints, first_largest
-from dalembert.core.elements.pushing import contact_forces, forces_at_speed, rounding
+from dalembert.core.elements.pushing import LOST, contact_forces, forces_at_speed, rounding
 from dalembert.core.layout import Pose
 
 if TYPE_CHECKING:
@@ -27,6 +27,10 @@ LACKS = (
 SLIPS = (
     "{joint} slips{arc}: to roll it needs a coefficient of friction of {needs} at rest and has {has}. Load it more, or "
     "let forces move it (simulate), where it slides."
+)
+UNPRESSED = (
+    "{joint} slips{arc}: nothing presses its links together. Load it, or let forces move it (simulate), where it "
+    "slides."
 )
 FREE = (
     "{joint} would have to hold with {couple} in its free sense{arc}: {j} runs ahead of {i}, and the drives do not say "
@@ -74,6 +78,8 @@ def _slip_sentence(c: Compiled, slipping: Array, pose: Pose, f: SolvedForces, ru
     forces = contact_forces(c.layout, c.pushing, pose, f.force, f.moment)[at]
     first = int(np.flatnonzero(c.pushing.joint == k)[0])
     has = abs(float(c.pushing.force[limit]))
+    if not forces[first] > LOST * slipping[at, limit]:
+        return UNPRESSED.format(joint=c.joints[k], arc=arc(c, run))
     needs = has + float(slipping[at, limit]) / float(forces[first])
     return SLIPS.format(joint=c.joints[k], needs=f"{needs:.6g}", has=f"{has:.6g}", arc=arc(c, run))
 

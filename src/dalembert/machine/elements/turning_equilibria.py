@@ -140,11 +140,14 @@ def small_swings(r: Result) -> Array:
         x, rows = r.drive_position(drive)[n], []
         schedule = replace(r.schedule, time=None)
         for step in (2e-2, 1e-2, 5e-3, 2.5e-3):
-            position = np.repeat(r.schedule.position[n : n + 1], 2, axis=0)
+            position = schedule.position[[n, n]]
             position[:, k] = x + np.array([-step, step]) * (1.0 if r.mechanism.drives[drive].turns else 0.1)
-            rest = np.zeros_like(position)
-            here = replace(schedule, position=position, speed=rest, acceleration=rest)
-            beside = at_schedule(r.mechanism, here, inertia=False)
+            speed, acceleration = (
+                schedule.speed[[n, n]],
+                schedule.acceleration[[n, n]],
+            )  # those of other drives
+            here = replace(schedule, position=position, speed=speed, acceleration=acceleration)
+            beside = at_schedule(r.mechanism, here, inertia=r.inertia)
             rows.append(float(np.diff(beside.effort(drive))[0] / np.diff(position[:, k])[0]))
-        out.append(math.sqrt(_extrapolated(rows) / inertia[n]))
+        out.append(math.sqrt(max(_extrapolated(rows), 0.0) / inertia[n]))
     return np.array(out)
