@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dalembert as da
@@ -221,3 +222,17 @@ def test_what_has_no_worked_solution_is_refused() -> None:
 def test_an_unknown_method_is_refused() -> None:
     with pytest.raises(ModelError, match="unknown method 'matrices'; did you mean 'matrix'"):
         da.report(da.statics(da.four_bar(positions=1)), methods=["steps", "matrices"])
+
+
+def test_friction_that_follows_shared_reactions_leaves_no_answer() -> None:
+    """A drum on two rubbing pins at one place, held by a band: no number of it is unique."""
+    tree = da.load(cases()["brk-1-simple-band-brake"]).to_tree()
+    rubs = {"coefficient": 0.02, "radius": "20 mm"}
+    tree["joints"]["twin"] = {"type": "pin", "links": ["ground", "drum"], "at": ["O", "O"], "friction": rubs}
+    r = da.dynamics(da.mechanism(tree))
+    assert (r.status, np.isnan(r.force_array).all()) == (("redundant",), True)
+    told = str(da.report(r))
+    assert "No answer" in told
+    assert "redundant: Friction follows reactions that statics does not determine here" in told
+    with pytest.raises(da.AnalysisError, match="position 1 has no forces: redundant, Friction follows"):
+        da.solution(r)

@@ -13,9 +13,15 @@ from dalembert.analysis.methods.members import components_along
 from dalembert.analysis.methods.solved.carried_out import solved_forces
 from dalembert.analysis.methods.solved.step_choice import Choice
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
-from dalembert.analysis.result.position_lookup import PositionChoice, extreme, position_at, position_sentence
+from dalembert.analysis.result.position_lookup import (
+    PositionChoice,
+    extreme,
+    has_forces,
+    position_at,
+    position_sentence,
+)
 from dalembert.answer.column import UnitChoice
-from dalembert.errors import FORCED, ModelError
+from dalembert.errors import ModelError
 from dalembert.reports.element_sections.belt_lines import belts_and_ropes
 from dalembert.reports.element_sections.brake_section import brakes
 from dalembert.reports.element_sections.law_lines import motion_laws
@@ -70,7 +76,7 @@ def working(
     if both_ends.open_at(r, c.k):
         friction.at_rest(sheet, c, _joint_forces)
         return sheet
-    if r.status[c.k] not in FORCED:
+    if not has_forces(r, c.k):
         sheet.heading("No answer")
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
         return sheet

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, actions
-from dalembert.analysis.result.position_lookup import PositionChoice, position_at
-from dalembert.errors import FORCED, STATUSES, AnalysisError, ModelError
+from dalembert.analysis.result.position_lookup import PositionChoice, has_forces, position_at
+from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.wording import closest
 from dalembert.wrench.forces import Couple, Force
 from dalembert.wrench.system import System
@@ -38,7 +38,7 @@ def on(r: Result, *links: str, at: PositionChoice = None) -> System:
     if not links:
         raise ModelError("no link is named", f"name some of {', '.join(r.links)}")
     k = position_at(r, at)
-    if r.status[k] not in FORCED:
+    if not has_forces(r, k):
         raise AnalysisError(f"position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
     outside = [a for a in actions(r) if a.link in links and a.by not in links]
     if not all(np.isfinite(a.force[k]).all() for a in outside):

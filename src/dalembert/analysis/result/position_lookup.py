@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.answer.named_answer import counted
 from dalembert.arrays import Array, first_largest
-from dalembert.errors import STATUSES, AnalysisError, ModelError
+from dalembert.errors import FORCED, STATUSES, AnalysisError, ModelError
 from dalembert.units import file_units, quantity
 
 if TYPE_CHECKING:
@@ -162,3 +162,10 @@ def _nearest(values: Array, wanted: float, turns: bool) -> tuple[int, bool]:
         away = np.abs(away - cycle * np.round(away / cycle))
     k = int(np.nanargmin(away))
     return k, bool(away[k] <= near)
+
+
+def has_forces(r: Result, k: int) -> bool:
+    """True where a position has forces, all of them or those that are unique; False of redundant constraints whose
+    friction leaves none."""
+    lost = r.status[k] == "redundant" and not np.isfinite(r.residual[k])
+    return r.status[k] in FORCED and not lost

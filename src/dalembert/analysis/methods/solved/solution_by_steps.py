@@ -10,11 +10,11 @@ import numpy as np
 
 from dalembert.analysis.methods.solved.carried_out import ForceSteps, SolvedStep, solved_forces
 from dalembert.analysis.methods.solved.step_choice import Choice, read_choice
-from dalembert.analysis.result.position_lookup import PositionChoice, position_at
+from dalembert.analysis.result.position_lookup import PositionChoice, has_forces, position_at
 from dalembert.answer.answer import Worked
 from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice
 from dalembert.arrays import Array, Tree
-from dalembert.errors import FORCED, AnalysisError
+from dalembert.errors import AnalysisError
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -109,6 +109,6 @@ def solution(
     ([('rocker', 'moments', 'O4'), ('coupler', 'moments', 'A')], '27.482 N m')
     """
     choice, k = read_choice(r, begin, about, along), position_at(r, at)
-    if r.status[k] not in FORCED:
+    if not has_forces(r, k):
         raise AnalysisError(f"position {k + 1} has no forces: {r.status[k]}, {r.reasons[k]}")
     return PaperSolution(r, k, choice, solved_forces(r, k, choice))
