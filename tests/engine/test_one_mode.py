@@ -75,6 +75,19 @@ def test_a_study_and_an_optimum_stand_as_the_file_does_compiled_or_one_by_one() 
         assert abs(best.value) < abs(da.solve(GOVERNOR).unknown_load("spring")).max()
 
 
+def test_a_design_in_space_that_closes_later_is_as_drawn() -> None:
+    """A Bennett linkage whose sides have other lengths closes at some positions only, the first one not among them."""
+    m = da.bennett()
+    at = {"coupler": (-0.13029, -0.0388459, 0.106693), "rocker": (-0.1309836, -0.039094, 0.1064634)}
+    numbers = {f"links.{link}.points.B.{k}": x for link, point in at.items() for k, x in enumerate(point)}
+    k = da.compile(m, list(numbers), ["effort.O"], lanes=1)
+    b = k([list(numbers.values())])
+    r = da.solve(k.trace.course.in_mode(with_numbers(m, k.trace.numbers, list(numbers.values()))))
+    assert list(b.status[0]) == list(r.status)
+    assert (r.status[0], r.status[-1]) == ("not_assembled", "ok")
+    assert b.value("effort.O")[0] == pytest.approx(r.effort("O"), rel=1e-9, nan_ok=True)
+
+
 @pytest.mark.parametrize("positions", [None, [0.001, 0.014]])
 def test_a_synthesized_mechanism_stands_as_it_was_found(positions: list[float] | None) -> None:
     name = "point.bell.B.y"
@@ -112,7 +125,7 @@ def test_the_mode_is_written_as_places_of_the_links(m: da.Mechanism) -> None:
     tree.pop("assembly", None)
     bare = da.mechanism(tree)
     r = da.solve(bare)
-    kept = in_mode(bare, r.compiled, full_pose(r, 0))
+    kept = in_mode(bare, r.compiled, full_pose(r, 0), r.schedule)
     for link in r.links:
         assert kept.assembly[link] == pytest.approx((*r.position(link)[0], r.angle(link)[0]), abs=1e-12)
 
@@ -124,17 +137,17 @@ def four_bar() -> da.Mechanism:
 def test_what_the_file_states_stays_and_so_does_what_begins_elsewhere() -> None:
     m, stated = four_bar(), da.four_bar()
     r = da.solve(m)
-    assert in_mode(stated, r.compiled, full_pose(r, 0)) is stated
+    assert in_mode(stated, r.compiled, full_pose(r, 0), r.schedule) is stated
     lost = Pose(np.full((4, 2), np.nan), full_pose(r, 0).turn, full_pose(r, 0).rotation)
-    assert in_mode(m, r.compiled, lost) is m
-    kept = in_mode(m.with_values({"links.coupler.mass": 3.0}), r.compiled, full_pose(r, 0))
+    assert in_mode(m, r.compiled, lost, r.schedule) is m
+    kept = in_mode(m.with_values({"links.coupler.mass": 3.0}), r.compiled, full_pose(r, 0), r.schedule)
     assert list(kept.assembly) == list(r.links)
     assert da.solve(kept).force_array == pytest.approx(
         da.solve(m.with_values({"links.coupler.mass": 3.0})).force_array
     )
     for m in (bare(da.planetary_train()), bare(da.rssr())):
         r = da.solve(m, positions=3)
-        assert in_mode(m, r.compiled, full_pose(r, 0)) is m
+        assert in_mode(m, r.compiled, full_pose(r, 0), r.schedule) is m
 
 
 def bare(m: da.Mechanism) -> da.Mechanism:

@@ -73,15 +73,16 @@ def general(m: Any, k: Any, values: np.ndarray) -> Any:
 
 
 def difference(k: Any, r: Any, d: int, g: Any) -> float:
-    """Largest difference of efforts and reactions of design ``d``, over the largest force, moments over lengths;
-    infinite where one has a number and the other none."""
+    """Largest difference of compiled efforts and reactions of design ``d``, over the largest force, moments over
+    lengths; infinite where one has a number and the other none."""
     force = np.nanmax(np.abs(g.force_array), initial=1e-300)
     scale, length = force, g.compiled.layout.length
-    pairs = [(r.reaction(j)[d], g.reaction(j), scale) for j in g.joints]
+    pairs = [(r.reaction(j)[d], g.reaction(j), scale) for j in g.joints if f"reaction.{j}" in k.outputs]
     angular = g.compiled.layout.freedoms.angular[g.compiled.layout.driven]
     pairs += [
         (r.effort(n)[d], g.effort(n), scale * (length if a else 1))
         for n, a in zip(g.drives, angular, strict=True)
+        if f"effort.{n}" in k.outputs
     ]
     worst = 0.0
     for mine, other, size in pairs:

@@ -84,6 +84,10 @@ class PoseGuess:
             self._as_drawn(layout, target) or self._near(layout, target) or self._search_modes(layout, target)
         )
 
+    def closes(self, layout: Layout, target: Array) -> bool:
+        """True if the linkage closes beside the given poses."""
+        return self._near(layout, target) is not None
+
     def every(self, layout: Layout, target: Array) -> Modes | None:
         """Assembly modes reached from a few random starts."""
         return self._search_modes(layout, target, FEW)

@@ -23,6 +23,7 @@ from dalembert.arrays import Array, Tree
 from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
 from dalembert.core.position.first_pose_plane import phase_rows
+from dalembert.core.position.first_pose_space import PoseGuess
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
 
@@ -82,7 +83,7 @@ class PositionPath:
 
     def in_mode(self, m: Mechanism) -> Mechanism:
         """A design in the assembly mode of this one."""
-        return in_mode(m, self.followed.compiled, self.pose.at(0))
+        return in_mode(m, self.followed.compiled, self.pose.at(0), self.schedule)
 
     @cached_property
     def first(self) -> int:
@@ -153,20 +154,26 @@ def contact_keys(c: Compiled) -> list[tuple[str, str]]:
 
 def in_mode_of(m: Mechanism, nominal: Result, positions: Any = None) -> Mechanism:
     """A design in the assembly mode of another one's analysis; as it is where it begins at other positions."""
-    if not np.array_equal(m.schedule(positions).position[:1], nominal.schedule.position[:1]):
+    schedule = m.schedule(positions)
+    if not np.array_equal(schedule.position[:1], nominal.schedule.position[:1]):
         return m
-    return in_mode(m, nominal.compiled, full_pose(nominal, 0))
+    return in_mode(m, nominal.compiled, full_pose(nominal, 0), schedule)
 
 
-def in_mode(m: Mechanism, like: Compiled, pose: Pose) -> Mechanism:
+def in_mode(m: Mechanism, like: Compiled, pose: Pose, schedule: Schedule) -> Mechanism:
     """A design with the assembly mode of another, whose links have a pose (L+1, ...) at the first position of both.
 
-    As it is where its file states an assembly, where phases or turns are counted from the first pose, and where a bar
-    between balls may spin, whose drawn pose is that without spin.
+    As it is where its file states an assembly, where phases or turns are counted from the first pose, and in space
+    where a bar between balls may spin, whose drawn pose is that without spin, or the design does not close there.
     """
     constraints = like.layout.constraints
     if m.assembly or not np.isfinite(pose.point).all() or like.counts:
         return m
     if phase_rows(constraints).size or constraints.idle.size:
         return m
-    return m.model_copy(update={"assembly": stated_poses(like.layout, like.links, pose)})
+    kept = m.model_copy(update={"assembly": stated_poses(like.layout, like.links, pose)})
+    if m.dimension == 2:
+        return kept
+    c = compile_mechanism(kept, schedule)
+    assert isinstance(c.guess, PoseGuess)
+    return kept if c.guess.closes(c.layout, c.targets[0]) else m
