@@ -268,3 +268,14 @@ def test_given_angles_choose_a_mode_up_to_their_largest_error(
     r = da.statics(m.with_values({f"assembly.{n}": x + off[n] for n, x in right.items()}))
     assert (chosen[-1] is not None) is known
     assert {n: r.angle(n)[0] for n in right} == pytest.approx(right)
+
+
+def test_of_the_kept_programs_those_not_used_longest_go_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(structures, "KEPT", 3)
+    kept = structures.Structures()
+    for key in "abc":
+        kept.put(key, None)
+    assert kept.get("a") == (True, None)
+    kept.put("d", None)
+    assert [*kept.found] == ["c", "a", "d"]
+    assert kept.size == 3

@@ -21,6 +21,7 @@ from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.interchange.file_formats import foreign_bytes
+from dalembert.interchange.targets import forward_dynamics
 from dalembert.interchange.targets.source_archive import sources_bytes
 from dalembert.interchange.targets.source_fmu import fmu_bytes
 from dalembert.interchange.targets.target_variables import kernel_of, target_function
@@ -276,3 +277,12 @@ def test_the_loader_runs_in_node(tmp_path: Path) -> None:
     ours = r.effort("O2")
     assert found["status"] == [0] * 300
     assert np.abs(np.array(found["effort"]) - ours).max() < 1e-12 * np.abs(ours).max()
+
+
+def test_the_drives_of_a_program_that_forces_move_are_without_brakes_and_motors() -> None:
+    m = da.four_bar().with_values(
+        {"drives.O2.brake": "5 N*m", "drives.O2.effort": 2.0, "drives.O2.position": 0.3}
+    )
+    (drive,) = forward_dynamics._steady(m).values()
+    assert (drive.brake, drive.speed, drive.acceleration, drive.effort) == (0.0, 1.0, 0.0, None)
+    assert (drive.motor, drive.position) == (None, 0.3)

@@ -18,6 +18,7 @@ from dalembert.bundled import cases, examples
 from dalembert.core.layout import Meet
 from dalembert.core.position import first_pose_plane
 from dalembert.core.position.assur_plan import plan
+from dalembert.core.position.first_pose_space import PoseGuess
 from dalembert.core.position.newton import gap
 from tests.random_mechanisms import Drawing, pose_array, random_case, tree
 from tests.random_mechanisms.groups import driven, dyad, single, welded
@@ -430,3 +431,16 @@ def test_angles_that_do_not_decide_the_assembly_mode_say_so() -> None:
         assert mode is not None
         assert "the angles in the file's assembly do not decide); other modes" in mode
         assert da.kinematics(da.loads(text.replace("STATED", f"{stated}, rod: -20"))).mode is None
+
+
+def test_every_mode_in_space_closes() -> None:
+    """Those that random starts reach of a crank, a rod in two balls and a rocker, without what the file states."""
+    tree = da.rssr().to_tree()
+    tree.pop("assembly", None)
+    m = da.mechanism(tree)
+    c = compile_mechanism(m, m.schedule(4))
+    assert isinstance(c.guess, PoseGuess)
+    modes = c.guess.every(c.layout, c.targets[1])
+    assert modes is not None
+    assert np.abs(gap(c.layout, modes.pose, c.targets[1])).max() < 1e-9
+    assert c.guess.closes(c.layout, c.targets[1])

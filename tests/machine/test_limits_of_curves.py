@@ -378,3 +378,17 @@ def test_nodes_of_barrel_and_rod_have_ends_and_the_gland_between() -> None:
         ("barrel", 1),
         ("rod", 3),
     ]
+
+
+def test_a_piece_with_one_unknown_number_leaves_no_extreme() -> None:
+    """Of the position that has it; the other one keeps its own, and so do the other forces."""
+    edges = np.tile([0.0, 1.0, 2.0], (2, 1))
+    cubics = np.zeros((2, 2, 6, 4))
+    cubics[:, :, 0, :2] = [[1.0, 1.0], [3.0, -0.5]]
+    cubics[:, :, 1, 0] = 7.0
+    cubics[1, 1, 0, 3] = np.nan
+    curve = MemberCurve(LONG, edges, cubics)
+    least, at_least, greatest, at_greatest = curve.extremes("axial")
+    assert (least[0], at_least[0], greatest[0], at_greatest[0]) == (1.0, 0.0, 2.5, 1.0)
+    assert np.isnan([least[1], at_least[1], greatest[1], at_greatest[1]]).all()
+    assert curve.extremes("shear")[2].tolist() == [7.0, 7.0]

@@ -349,3 +349,12 @@ def test_a_table_of_a_front_has_the_numbers_of_its_designs() -> None:
         ["0.5", "4", "1", "1!"],
         ["0.75", "3", "2", "2!"],
     ]
+
+
+def test_values_in_steps_are_counted_from_the_lower_bound_whatever_the_span() -> None:
+    """Of 30 mm in a span of 80 mm, and of 0.4 kg in one of 1.3 kg."""
+    vary = {"links.ground.points.O4.0": (0.28, 0.36, 0.03), "links.coupler.mass": (0.3, 1.6, 0.4)}
+    best = da.optimize(da.four_bar(positions=12), vary, "peak effort.O2", starts=4)
+    for value, (low, _, step) in zip(best.values, vary.values(), strict=True):
+        assert (value - low) / step == pytest.approx(round((value - low) / step), abs=1e-9)
+        assert low <= value

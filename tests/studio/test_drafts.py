@@ -10,6 +10,7 @@ import pytest
 from dalembert.errors import ModelError
 from dalembert.model.files.model_files import read_text
 from dalembert.model.files.splicing import REMOVED
+from dalembert.studio.editing import entries
 from dalembert.studio.editing.draft import Draft
 from dalembert.studio.editing.entries import add_entries
 from dalembert.studio.editing.gestures import gesture
@@ -191,3 +192,17 @@ def test_entries_are_added_behind_the_last_of_their_section() -> None:
         assert add_entries(text, "yaml", entry) == after
     with pytest.raises(ModelError, match=r"^the name 'T' is already used in loads; choose another name$"):
         add_entries("loads:\n  T: 3\n", "yaml", entry)
+
+
+def test_with_a_link_go_the_cylinders_between_its_points_and_no_others() -> None:
+    """A drive of its joint too; of a link that is no end of the cylinder the drive stays."""
+    tree: Any = {
+        "links": {"ground": {}, "boom": {}, "arm": {}},
+        "joints": {"A": {"links": ["ground", "boom"]}, "B": {"links": ["boom", "arm"]}},
+        "drives": {"A": {"cylinder": {"between": ["ground.C", "arm.D"]}}},
+    }
+    gone = [set(entries._dependents(tree, "links", link)) for link in ("arm", "boom")]
+    assert gone[0] == {("links", "arm"), ("joints", "B"), ("drives", "A")}
+    assert gone[1] == {("links", "boom"), ("joints", "A"), ("joints", "B"), ("drives", "A")}
+    tree["drives"]["A"]["cylinder"] = {"between": ["ground.C", "boom.D"]}
+    assert set(entries._dependents(tree, "links", "arm")) == {("links", "arm"), ("joints", "B")}

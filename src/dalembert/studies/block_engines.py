@@ -154,7 +154,7 @@ class AnalysisEngine:
     def one(self, m: Mechanism) -> tuple[Block, Array]:
         """Outputs and status codes of one design."""
         result = solve(in_mode_of(m, self.nominal, self.count), self.static, self.count)
-        codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
+        codes = [CODES.index(s) for s in result.status]
         statuses = np.array(codes, np.uint8)
         unique = among(statuses, [CODES.index("redundant")])
         for name in self.outputs if unique.any() else ():

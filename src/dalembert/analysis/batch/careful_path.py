@@ -150,7 +150,7 @@ def analyse_design(
         result = at_schedule(design, _schedule(design, schedule), inertia, method="careful")
     except DalembertError:
         return np.full(count, CODES.index("failed"), np.uint8), None
-    codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
+    codes = [CODES.index(s) for s in result.status]
     return np.array(codes, np.uint8), result
 
 
