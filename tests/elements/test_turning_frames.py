@@ -160,6 +160,18 @@ def test_what_has_no_answer_says_why() -> None:
         _ = da.statics(da.four_bar()).turning_speed
 
 
+@pytest.mark.parametrize("lean", [60, 120])
+def test_gravity_is_along_an_axis_that_leans(lean: float) -> None:
+    text, c, s = (
+        ROD.replace("axis: y", f"axis: {lean} deg"),
+        math.cos(math.radians(lean)),
+        math.sin(math.pi / 3),
+    )
+    assert da.statics(da.loads(text.replace("gravity: standard", f"gravity: [{-9 * c}, {-9 * s}]"))).ok.all()
+    with pytest.raises(da.ModelError, match="gravity is not along the axis of turning"):
+        da.loads(text.replace("gravity: standard", f"gravity: [{9 * c}, {-9 * s}]"))
+
+
 def test_centrifugal_forces_of_rounding_have_no_power() -> None:
     """A rod along the axis, but for the rounding of its angle, and one straight out; a hair off both have a speed."""
     asked = ROD.replace("speed: 8 rad/s", "speed: unknown")

@@ -484,3 +484,16 @@ def test_a_wrong_dimension_of_a_template_is_named(values: Any, says: str) -> Non
     with pytest.raises(ModelError) as caught:
         da.wedge(**values)
     assert str(caught.value) == says
+
+
+@pytest.mark.parametrize(("part", "closes"), [(0.999, False), (1.001, True)])
+def test_a_rod_reaches_the_line_of_its_slider_all_round(part: float, closes: bool) -> None:
+    """The crank turns about z and the line is along x, 80 mm above: at a quarter turn it is hypot(60, 80) mm away."""
+    sizes: dict[str, Any] = {"crank": 0.06, "rod": 0.1 * part, "guide": (0, 0, 0.08), "direction": (1, 0, 0)}
+    if closes:
+        assert set(da.statics(da.rssp(**sizes)).status) == {"ok"}
+        return
+    with pytest.raises(
+        da.ModelError, match="does not close from 86 to 274 degrees of the crank; change the rod"
+    ):
+        da.rssp(**sizes)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,7 +13,7 @@ import pytest
 import scipy.optimize
 
 import dalembert as da
-from dalembert.optimization import polishing
+from dalembert.optimization import optimizing, polishing
 from dalembert.optimization.least_squares import BETWEEN, Errors, TargetErrors, least_squares, wanted
 from dalembert.optimization.optimizers import DEFAULT, OPEN, polish_by
 from dalembert.optimization.optimizing import is_alike, problem_of
@@ -358,3 +360,16 @@ def test_values_in_steps_are_counted_from_the_lower_bound_whatever_the_span() ->
     for value, (low, _, step) in zip(best.values, vary.values(), strict=True):
         assert (value - low) / step == pytest.approx(round((value - low) / step), abs=1e-9)
         assert low <= value
+
+
+def test_progress_of_polishing_counts_the_designs_that_are_done(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: dict[str, list[int]] = {}
+
+    @contextmanager
+    def recorded(what: str, total: int) -> Iterator[Any]:
+        told[f"{what}: {total}"] = done = list[int]()
+        yield done.append
+
+    monkeypatch.setattr(optimizing, "progress", recorded)
+    da.optimize(da.four_bar(positions=6), {"links.coupler.mass": (0.3, 1.6)}, "peak effort.O2", starts=3)
+    assert told["Polishing designs: 4"] == [1, 2, 3, 4]
