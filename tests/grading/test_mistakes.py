@@ -306,6 +306,7 @@ def test_a_sheet_says_once_at_which_position_its_figures_are() -> None:
             r"effort needs names, of the things that the figures belong to; write effort: \{NAME: 3\}",
         ),
         ([3], "the answers are neither a mapping nor a list of mappings; write efforts: "),
+        ([{"quantity": "effort", "of": "O2"}, 3], "the answers are neither a mapping nor a list of mappings"),
         (None, "the answers are neither a mapping nor a list of mappings"),
         ({"forces": {"A": 3}}, "unknown quantity 'force'"),
     ],

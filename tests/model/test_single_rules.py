@@ -14,6 +14,7 @@ from dalembert.model import Drive, Schedule
 from dalembert.model.drives.end_stops import end_stops
 from dalembert.model.drives.schedule import schedule
 from dalembert.model.gravity import gravity_doubt
+from dalembert.model.joints.space_joints import _square
 from dalembert.model.part import ReadingRules
 from dalembert.model.paths import _mirror, as_in_file, latest, set_value, value_at
 from dalembert.model.stated_answers import StatedAnswer, parts_of_name
@@ -290,3 +291,13 @@ def test_a_lone_turn_is_stepped_round() -> None:
     assert refused(schedule, {"O": turn, "S": slide}, [1, 2, 3])[0].startswith(
         "positions of shape (3,) do not fit 2 drive(s)"
     )
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_vector_along_an_axis_in_either_sense_gives_no_direction_across_it(sign: float) -> None:
+    """Up to a cosine of 0.9, from both sides."""
+    axis = (0.0, 0.0, 1.0)
+    for cosine, known in ((0.899, True), (0.901, False)):
+        across = _square((3.0 * math.sqrt(1 - cosine**2), 0.0, 3.0 * sign * cosine), axis)
+        assert (across is not None) is known
+        assert across is None or across == pytest.approx((1.0, 0.0, 0.0))
