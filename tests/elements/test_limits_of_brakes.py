@@ -156,7 +156,8 @@ def test_what_turns_with_a_plane_is_pulled_outward_as_the_sum_of_its_points(
         [(mass * off[:, 0] ** 2).sum(), (mass * off[:, 1] ** 2).sum(), (mass * off[:, 0] * off[:, 1]).sum()]
     ]
     inertia: Any = SimpleNamespace(mass=np.array([total]), center=center[None])
-    layout: Any = SimpleNamespace(links=1, algebra=plane)
+    turns = SimpleNamespace(angular=np.array([True]))
+    layout: Any = SimpleNamespace(links=1, algebra=plane, length=1.0, freedoms=turns, driven=np.array([0]))
     turn = np.array([0.7, 0.0])
     pose = Pose(np.array([[1.5, -0.5], [0.0, 0.0]]), turn, plane.rotation(turn))
     f = frame(axis, 9.0, moments)

@@ -57,7 +57,7 @@ class Shaking(MachineAnswer):
     """Force (P, d) and moment (P,), in space (P, 3), of some links on everything else, about a fixed point (d,).
 
     ``parts``: the same by cause: `inertia`, `weight`, `external`. ``residual`` (P,): difference to what the joints,
-    drives, springs and dampers carry, over ``largest``, the largest force of the machine; NaN where unknown.
+    drives, springs and dampers carry, over ``largest``, the largest single force of the cycle; NaN where unknown.
     ``outside_sizes``: by load or drive that is external, its greatest force, with its couple over the length, N.
     ``couple`` (P, 2), in the plane where links have a `place` z along the normal: sum of z k x F over the links.
     """
@@ -76,7 +76,8 @@ class Shaking(MachineAnswer):
 
     def floor(self, kind: str) -> float:
         """Rounding level beside the largest force of the machine in the cycle: for a `force`, else a moment."""
-        return PART * self.largest * (1.0 if kind == "force" else self.result.compiled.layout.length)
+        largest = max(self.largest, float(sizes(self.result)["force"].max(initial=0.0)))
+        return PART * largest * (1.0 if kind == "force" else self.result.compiled.layout.length)
 
     @property
     def whole(self) -> bool:
@@ -156,7 +157,8 @@ def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) 
     force, moment = (np.sum([w[k] for w in causes.values()], axis=0) for k in (0, 1))
     through = _sum(r, carried, point)
     length = r.compiled.layout.length
-    largest = float(sizes(r)["force"].max(initial=0.0))
+    each = [magnitude(a.force) for a in loads] + [_size(a.couple) / length for a in loads]
+    largest = max((float(np.nanmax(s, initial=0.0)) for s in each), default=0.0)
     off = [_size(a + b) for a, b in zip((force, moment), through, strict=True)]
     gap = np.maximum(off[0], off[1] / length) / (largest or 1.0)
     outside = [a for a in loads if CAUSES[a.kind] == "external"]
