@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from tests.machine.closed_forms import crank_points, shaking_of, turn
@@ -295,3 +296,11 @@ def test_the_table_of_harmonics_has_the_exact_ones_and_the_books() -> None:
         assert row == pytest.approx(sizes, rel=1e-5, abs=1e-6)
     assert rows[1] == [0, 0, 0, 0]
     assert rows[4][:2] > rows[4][2:] == [0, 0]
+
+
+def test_a_rod_without_length_has_no_series() -> None:
+    pump = da.load(examples()["pump"]).with_values({"ratio": 0.0})
+    with pytest.raises(
+        da.ModelError, match="rod has no length; the book's series has the ratio of crank and rod"
+    ):
+        da.engine_series(da.dynamics(pump))

@@ -107,7 +107,7 @@ def engine_series(r: Result) -> EngineSeries:
             "compute the shaking force: da.shaking",
         )
     for c in all_cylinders:
-        if np.nanmin(r.speed(c.crank)) < 0 < np.nanmax(r.speed(c.crank)):
+        if (r.speed(c.crank) < 0).any() and (r.speed(c.crank) > 0).any():
             what = f"{c.crank}, the crank of {c.piston}, swings: this is not an engine"
             raise ModelError(what, "compute the shaking force: da.shaking")
     m, counted = r.mechanism, {link for c in all_cylinders for link in (c.piston, c.rod)}
@@ -127,6 +127,8 @@ def _parts(r: Result, c: EngineCylinder) -> list[tuple[str, Array]]:
     pin, gudgeon = (link_place(r, c.rod, _point(m, joint, c.rod)) for joint in (c.pin, c.gudgeon))
     arm, off = pin - center, gudgeon - center
     crank, length = (float(np.hypot(*v[0])) for v in (arm, gudgeon - pin))
+    if length == 0:
+        raise ModelError(f"{c.rod} has no length", "the book's series has the ratio of crank and rod")
     aside = np.abs(off[:, 0] * along[1] - off[:, 1] * along[0]).max()
     if aside > 1e-9 * length:
         raise ModelError(
