@@ -183,7 +183,7 @@ def test_a_wheel_beyond_its_friction_has_the_status_slips() -> None:
     )
     floating = da.loads((SLOPE % ("{coefficient: 0.1}", drive)).replace("standard", "none"))
     assert da.dynamics(floating).reasons[0] == (
-        "track slips at track = 0 deg: nothing presses its links together. Load it, or let forces move it (simulate), "
+        "track slips at track = 0 deg: its links are not pressed together. Load it, or let forces move it (simulate), "
         "where it slides."
     )
     with pytest.raises(

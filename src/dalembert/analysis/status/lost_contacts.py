@@ -29,7 +29,7 @@ SLIPS = (
     "let forces move it (simulate), where it slides."
 )
 UNPRESSED = (
-    "{joint} slips{arc}: nothing presses its links together. Load it, or let forces move it (simulate), where it "
+    "{joint} slips{arc}: its links are not pressed together. Load it, or let forces move it (simulate), where it "
     "slides."
 )
 FREE = (
