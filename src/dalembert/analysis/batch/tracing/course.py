@@ -164,7 +164,8 @@ def in_mode(m: Mechanism, like: Compiled, pose: Pose, schedule: Schedule) -> Mec
     """A design with the assembly mode of another, whose links have a pose (L+1, ...) at the first position of both.
 
     As it is where its file states an assembly, where phases or turns are counted from the first pose, and in space
-    where a bar between balls may spin, whose drawn pose is that without spin, or the design does not close at that position.
+    where a bar between balls may spin, whose drawn pose is that without spin, or the design does not close at that
+    position.
     """
     constraints = like.layout.constraints
     if m.assembly or not np.isfinite(pose.point).all() or like.counts:
