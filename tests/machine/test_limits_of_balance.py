@@ -336,11 +336,12 @@ def test_a_torque_of_rounding_is_none_and_nothing_is_left_of_it(monkeypatch: pyt
 
 
 def test_a_force_of_rounding_is_none_beside_that_of_the_mass_on_the_radius() -> None:
-    """The only mass lies on its axis: 8e-34 N of 0.25 N that it would have on the radius of its link."""
+    """The only mass lies on its axis: 8e-34 N beside m L w^2, which it would have on the radius of its link."""
     tree = da.load(bundled.cases()["sp-07-hooke-joint-equal-speeds"]).to_tree()
     tree["links"]["output"]["mass"] = 0.5
     r = da.dynamics(da.mechanism(tree))
-    assert da.shaking(r).floor("force") == pytest.approx(0.25 * PART, rel=1)
+    at_rim = 0.5 * r.compiled.layout.length * np.abs(r.twist_array[..., 3:]).max() ** 2  # m L w^2
+    assert da.shaking(r).floor("force") == pytest.approx(PART * at_rim)
     b = da.balance(r, ["output"])
     assert (b.residual, b.complete, b.placed["output"].mass) == (0.0, True, 0.0)
 
