@@ -142,8 +142,8 @@ def small_swings(r: Result) -> Array:
         for step in (2e-2, 1e-2, 5e-3, 2.5e-3):
             position = schedule.position[[n, n]]
             position[:, k] = x + np.array([-step, step]) * (1.0 if r.mechanism.drives[drive].turns else 0.1)
-            rates = {"speed": schedule.speed[[n, n]], "acceleration": schedule.acceleration[[n, n]]}
-            here = replace(schedule, position=position, **rates)  # other drives go on
+            speed, rising = schedule.speed[[n, n]], schedule.acceleration[[n, n]]  # other drives go on
+            here = replace(schedule, position=position, speed=speed, acceleration=rising)
             beside = at_schedule(r.mechanism, here, inertia=r.inertia)
             rows.append(float(np.diff(beside.effort(drive))[0] / np.diff(position[:, k])[0]))
         out.append(math.sqrt(max(_extrapolated(rows), 0.0) / inertia[n]))
